@@ -414,9 +414,9 @@ void Editor::submit_preview(const Scene& scene) {
 void Editor::latest() {
     pictures_ = session_.pictures();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is no document to return to
-    if (!shows_preview()) convergence_.current_pictures(ui_.convergence, pictures_);
+    if (!shows_preview()) convergence_.update(ui_.convergence, pictures_);
     if (pictures_.frame && pictures_.frame->revision == submitted_revision() && !files_.preview()) {
-        metering_.current_pictures(document_, pictures_.frame, ui_, color_);
+        metering_.update(document_, pictures_.frame, ui_, color_);
         opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
     }
     const SessionStatus status = session_.status();
@@ -441,8 +441,7 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
-        state.current_pictures =
-            shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.shown = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
     const auto now = Clock::now();

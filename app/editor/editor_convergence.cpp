@@ -68,7 +68,7 @@ void EditorConvergence::remix(const std::string& name, const Submission& next) {
     reference_provider_.forget();
 }
 
-void EditorConvergence::current_pictures(ConvergenceView& view, const Pictures& pictures) {
+void EditorConvergence::update(ConvergenceView& view, const Pictures& pictures) {
     const auto begin = Clock::now();
     const FramePtr& frame = pictures.frame;
     // The error of a coarse picture is not comparable.
@@ -109,7 +109,7 @@ void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
         subject_.settings.width = frame->width;
         subject_.settings.height = frame->height;
         subject_.settings.resolution_scale = 1;
-        reference_provider_.current_pictures(subject_);
+        reference_provider_.find(subject_);
     }
     if (reference_provider_.poll() && frame) measuring_.add_raw(frame);
     measuring_.poll(view.runs, view.reference ? reference_provider_.reference() : nullptr, frame);

@@ -27,7 +27,7 @@ public:
     // From this submission on, the samples have another light mix.
     void remix(const std::string& name, const Submission& next);
     // Call once per UI frame with the newest pictures.
-    void current_pictures(ConvergenceView& view, const Pictures& pictures);
+    void update(ConvergenceView& view, const Pictures& pictures);
     // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
     void handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
     void load(UiState& ui, const std::filesystem::path& file);

@@ -22,7 +22,7 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
     view_transform_ = {"display", "view transform",
                        true,      "the picture is shown through it",
                        bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
-    ledger_.clear();
+    feature_report_.clear();
 }
 
 void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
@@ -33,10 +33,10 @@ void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
 }
 
 void EditorDisplay::update_ledger(const SessionStatus& status) {
-    if (!ledger_.empty() && status.denoised_with == denoised_with_) return;
+    if (!feature_report_.empty() && status.denoised_with == denoised_with_) return;
     denoised_with_ = status.denoised_with;
-    ledger_ = denoiser_feature_report(weights_, denoised_with_);
-    ledger_.insert(ledger_.begin(), view_transform_);
+    feature_report_ = denoiser_feature_report(weights_, denoised_with_);
+    feature_report_.insert(feature_report_.begin(), view_transform_);
 }
 
 } // namespace blush

@@ -23,7 +23,7 @@ public:
     void update_ledger(const SessionStatus& status);
 
     float metered_ev() const { return metered_ev_; } // 0 if auto exposure is off
-    const FeatureReport& feature_report() const { return ledger_; }
+    const FeatureReport& feature_report() const { return feature_report_; }
 
 private:
     const ColorManagement& color_;
@@ -34,7 +34,7 @@ private:
     AutoExposure metered_by_ = AutoExposure::off;
     float metered_ev_ = 0;
     FeatureUse view_transform_{"display", "view transform", false, "no picture yet"};
-    FeatureReport ledger_;
+    FeatureReport feature_report_;
     std::array<bool, denoise_qualities> denoised_with_{};
 };
 

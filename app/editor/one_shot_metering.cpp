@@ -11,7 +11,7 @@ void OneShotMetering::want(const Project& project, bool opening) {
     due_ = Due{opening || (due_ && due_->opening), project.view.exposure_ev, project.scene.environment};
 }
 
-void OneShotMetering::current_pictures(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color) {
+void OneShotMetering::update(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color) {
     if (!due_ || !frame) return;
     const Project& project = document.project();
     const bool taken_back =

@@ -21,7 +21,7 @@ public:
     }
     // Meters as soon as the frame shows the current document with enough samples. Not if the user has set an exposure, or undone
     // the environment, in the meantime.
-    void current_pictures(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color);
+    void update(Document& document, const FramePtr& frame, const UiState& ui, const ColorManagement& color);
 
 private:
     struct Due {

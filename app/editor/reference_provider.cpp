@@ -27,7 +27,7 @@ void ReferenceProvider::start(std::function<Found(JobProgress&)> work, bool rend
         std::make_unique<BackgroundJob<Found>>(rendering ? "Rendering the reference" : "Searching for a reference", std::move(work), wake_);
 }
 
-void ReferenceProvider::current_pictures(const Subject& subject) {
+void ReferenceProvider::find(const Subject& subject) {
     if (looked_ || job_) return;
     looked_ = true;
     start(

@@ -25,7 +25,7 @@ public:
     // The picture has changed: drops its reference.
     void forget();
     // Searches the cache, once per picture.
-    void current_pictures(const Subject& subject);
+    void find(const Subject& subject);
     // Renders one with `samples` per pixel, or doubles the samples of the current one. No effect while a job is running.
     void render(const Subject& subject, int64_t samples);
     // Stops; the samples rendered so far are used.

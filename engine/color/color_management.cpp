@@ -83,18 +83,18 @@ OCIO::ConstTransformRcPtr display_transform(const OCIO::Config& config, const Di
     } else if (!source) {
         source = OCIO::ROLE_SCENE_LINEAR;
     }
-    if (!names.current_pictures.empty()) {
-        auto current_pictures = OCIO::LookTransform::Create();
-        current_pictures->setSrc(source);
-        current_pictures->setDst(source);
-        current_pictures->setLooks(names.current_pictures.c_str());
-        group->appendTransform(current_pictures);
+    if (!names.look.empty()) {
+        auto look = OCIO::LookTransform::Create();
+        look->setSrc(source);
+        look->setDst(source);
+        look->setLooks(names.look.c_str());
+        group->appendTransform(look);
     }
     auto to_display = OCIO::DisplayViewTransform::Create();
     to_display->setSrc(source);
     to_display->setDisplay(names.display.c_str());
     to_display->setView(names.view.c_str());
-    to_display->setLooksBypass(!names.current_pictures.empty());
+    to_display->setLooksBypass(!names.look.empty());
     group->appendTransform(to_display);
     return group;
 }
@@ -132,8 +132,8 @@ Result<OCIO::ConstProcessorRcPtr> make_processor(const OCIO::Config& config, Dis
     if (!contains(views, names.view))
         return Error{
             {}, fmt::format("no view \"{}\" for display \"{}\"; there are: {}", names.view, names.display, fmt::join(views, ", ")), {}};
-    if (const auto looks = looks_of(config); !names.current_pictures.empty() && !contains(looks, names.current_pictures))
-        return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.current_pictures, fmt::join(looks, ", ")), {}};
+    if (const auto looks = looks_of(config); !names.look.empty() && !contains(looks, names.look))
+        return Error{{}, fmt::format("no look \"{}\"; there are: {}", names.look, fmt::join(looks, ", ")), {}};
     try {
         return config.getProcessor(display_transform(config, names));
     } catch (const std::exception& e) { return failure(e, {}, fmt::format("view \"{}\" of display \"{}\"", names.view, names.display)); }

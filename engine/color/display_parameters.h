@@ -10,7 +10,7 @@ namespace blush {
 
 // Names that select the shader. Empty: the config's default display, the display's default view, and the view's own looks.
 struct DisplayTransform {
-    std::string display = {}, view = {}, current_pictures = {};
+    std::string display = {}, view = {}, look = {};
     bool operator==(const DisplayTransform&) const = default;
 };
 

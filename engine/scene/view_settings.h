@@ -37,9 +37,9 @@ struct FalseColor {
 struct ViewSettings {
     float exposure_ev = 0;
     float gamma = 1;
-    std::string display = {};          // empty: the config's default
-    std::string view = {};             // empty: the display's default
-    std::string current_pictures = {}; // empty: the view's default
+    std::string display = {}; // empty: the config's default
+    std::string view = {};    // empty: the display's default
+    std::string look = {};    // empty: the view's default
     AutoExposure auto_exposure = AutoExposure::off;
     Vec3 white{1, 1, 1}; // white balance: scene-linear colour that is shown neutral
     FalseColor false_color = {};

@@ -71,12 +71,12 @@ protected:
     }
     // A run whose error falls like 1/sqrt(N).
     void converge(uint64_t revision, int64_t up_to) {
-        for (int64_t n = 1; n <= up_to; n *= 2) editor.current_pictures(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
+        for (int64_t n = 1; n <= up_to; n *= 2) editor.update(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
     }
     // Repeats with the same pictures until the condition is true.
     template <class Done> bool look_until(const Pictures& pictures, Done done) {
         for (int i = 0; i < 3000 && !done(); ++i) {
-            editor.current_pictures(view, pictures);
+            editor.update(view, pictures);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         return done();
@@ -101,16 +101,16 @@ protected:
 };
 
 TEST_F(Convergence, RecordsOnlyFullResolutionPicturesOfTheRun) {
-    editor.current_pictures(view, {frame_of(1, 4, 1), nullptr});
+    editor.update(view, {frame_of(1, 4, 1), nullptr});
     EXPECT_FALSE(view.runs.live());
     begin("Opened", 2);
-    editor.current_pictures(view, {frame_of(1, 512, 0.1), nullptr}); // the picture before it
+    editor.update(view, {frame_of(1, 512, 0.1), nullptr}); // the picture before it
     auto coarse = frame_of(2, 1, 1);
     coarse->divider = 4;
-    editor.current_pictures(view, {coarse, nullptr});
+    editor.update(view, {coarse, nullptr});
     auto unknown = frame_of(2, 1, 1);
     unknown->error = {};
-    editor.current_pictures(view, {unknown, nullptr});
+    editor.update(view, {unknown, nullptr});
     EXPECT_TRUE(view.runs.live()->record.points().empty());
     converge(3, 64); // a later revision continues the image
     EXPECT_EQ(view.runs.live()->record.points().size(), 7u);
@@ -161,8 +161,8 @@ TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     for (const float intensity : {2.f, 3.f}) { // a drag
         ASSERT_TRUE(document.apply(SetMix{{LightMix::Grouping::by_light, {{.group = "Lamp", .intensity = intensity}}}}));
         submit();
-        editor.current_pictures(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
-        editor.current_pictures(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
+        editor.update(view, {frame_of(revision - 1, 64, 0.1), nullptr}); // not mixed yet
+        editor.update(view, {frame_of(revision, 64, 0.1 * double(intensity)), nullptr});
     }
     ASSERT_EQ(view.runs.all().size(), 1u) << "no new run";
     const ConvergenceRecord& record = view.runs.live()->record;
@@ -182,7 +182,7 @@ TEST_F(Convergence, DenoisedPicturesAreMeasuredAgainstABetterRawOne) {
     begin("Opened", 1);
     converge(1, 4);
     const DenoisedPtr denoised = denoised_of(1, 4, 1.1f);
-    editor.current_pictures(view, {frame_of(1, 8, 0.2), denoised});
+    editor.update(view, {frame_of(1, 8, 0.2), denoised});
     EXPECT_EQ(view.waiting, 1u);
     const auto points = [&] { return view.runs.live()->record.points(Kind::denoised); };
     ASSERT_TRUE(look_until({frame_of(1, 16, 0.1), denoised}, [&] { return view.cost.measuring > 0; }));
@@ -212,7 +212,7 @@ TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
 
     // The same picture again, after another one.
     begin("edit", 2);
-    editor.current_pictures(view, {frame_of(2, 1, 1), nullptr});
+    editor.update(view, {frame_of(2, 1, 1), nullptr});
     EXPECT_EQ(view.news.state, State::none) << "no search before the picture has settled";
     converge(2, 16);
     EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.news.state == State::there; }));

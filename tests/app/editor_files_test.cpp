@@ -81,12 +81,12 @@ struct Opening {
 };
 
 // Calls look(opening) when the preview is ready. On a busy machine, the textures may be loaded first; then retries.
-template <class Look> void look_at_preview(const Look& current_pictures) {
+template <class Look> void look_at_preview(const Look& look) {
     const test::TempFolder folder;
     const std::filesystem::path file = write_scene(folder);
     for (int attempt = 0; attempt < 20; ++attempt) {
         Opening opening;
-        if (opening.reaches_preview(file)) return current_pictures(opening);
+        if (opening.reaches_preview(file)) return look(opening);
     }
     FAIL() << "no preview in twenty attempts";
 }

@@ -117,8 +117,7 @@ TEST(RenderLoop, ChecksTheErrorAtFixedSampleCounts) {
     renderer.update(test::sample_project().project.scene, settings);
     std::set<int64_t> halts;
     run_render_loop(renderer, settings, no, [&](const LoopProgress& p) { halts.insert(p.samples); });
-    for (int64_t current_pictures = next_error_look(0); current_pictures < 40; current_pictures = next_error_look(current_pictures))
-        EXPECT_TRUE(halts.contains(current_pictures)) << current_pictures;
+    for (int64_t next = next_error_look(0); next < 40; next = next_error_look(next)) EXPECT_TRUE(halts.contains(next)) << next;
 }
 
 } // namespace

@@ -107,7 +107,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     EXPECT_EQ(options.view.exposure_ev, -1.5f);
     EXPECT_EQ(options.view.view, "Raw");
     EXPECT_EQ(options.view.display, "sRGB");
-    EXPECT_EQ(options.view.current_pictures, "High contrast");
+    EXPECT_EQ(options.view.look, "High contrast");
     EXPECT_EQ(options.view.auto_exposure, AutoExposure::highlights);
     EXPECT_EQ(options.view.white, (Vec3{1, 0.8f, 0.5f}));
     EXPECT_EQ(options.view.false_color, (FalseColor{FalseColor::Of::nits, 10, 500}));

@@ -74,9 +74,9 @@ TEST(Config, ErrorsOfUnknownNamesListTheKnownOnes) {
     const auto display = color.display_shader({"CRT"});
     ASSERT_FALSE(display);
     EXPECT_EQ(display.error().text(), "no display \"CRT\"; there are: sRGB, Rec.1886, Display P3");
-    const auto current_pictures = color.display_shader({"", "", "Sepia"});
-    ASSERT_FALSE(current_pictures);
-    EXPECT_EQ(current_pictures.error().text(), "no look \"Sepia\"; there are: Low contrast, High contrast, Black and white");
+    const auto look = color.display_shader({"", "", "Sepia"});
+    ASSERT_FALSE(look);
+    EXPECT_EQ(look.error().text(), "no look \"Sepia\"; there are: Low contrast, High contrast, Black and white");
     EXPECT_EQ(p, grey(0.5f));
 }
 

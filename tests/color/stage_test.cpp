@@ -21,12 +21,10 @@ Pixel show_with(const ColorManagement& color, const DisplayTransform& transform,
 
 TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
     const auto color = shipped_config();
-    const auto standard = [&](const char* current_pictures, const Pixel& p) {
-        return show_with(color, {"sRGB", "Standard", current_pictures}, {}, p);
-    };
-    for (const char* current_pictures : {"Low contrast", "High contrast"}) {
-        const Pixel same = standard(current_pictures, grey(0.18f));
-        for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << current_pictures;
+    const auto standard = [&](const char* look, const Pixel& p) { return show_with(color, {"sRGB", "Standard", look}, {}, p); };
+    for (const char* look : {"Low contrast", "High contrast"}) {
+        const Pixel same = standard(look, grey(0.18f));
+        for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(same[i], standard("", grey(0.18f))[i], 1e-4) << look;
     }
     // The unit range of ACEScct is 17.52 stops, so contrast scales stops from grey.
     EXPECT_NEAR(standard("High contrast", grey(0.18f * 2))[0], srgb_encoded(0.18 * std::exp2(1.2)), 1e-3);
@@ -38,10 +36,9 @@ TEST(Looks, PivotAtMiddleGreyOrDesaturate) {
 TEST(Looks, AreAvailableInEveryView) {
     const auto color = shipped_config();
     EXPECT_EQ(color.looks(), (std::vector<std::string>{"Low contrast", "High contrast", "Black and white"}));
-    for (const auto& current_pictures : color.looks())
+    for (const auto& look : color.looks())
         for (const auto& display : color.displays())
-            for (const auto& view : color.views(display))
-                EXPECT_TRUE(color.display_shader({display, view, current_pictures})) << current_pictures << view;
+            for (const auto& view : color.views(display)) EXPECT_TRUE(color.display_shader({display, view, look})) << look << view;
 }
 
 TEST(WhiteBalance, MakesThePickedColourNeutralAndKeepsItsLuminance) {

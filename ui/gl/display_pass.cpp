@@ -136,8 +136,8 @@ void DisplayPass::upload(int width, int height, Values rgba) {
     height_ = next_row_ = height;
 }
 
-void DisplayPass::begin(const DisplayLook& current_pictures) {
-    look_ = current_pictures;
+void DisplayPass::begin(const DisplayLook& look) {
+    look_ = look;
     if (program_) next_row_ = 0;
 }
 

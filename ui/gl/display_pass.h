@@ -39,7 +39,7 @@ public:
         upload_denoised(width, height, Values(rgb, rgb->data()));
     }
     // Begins a new picture from the last uploads, at the frame's resolution; cancels one that is in progress.
-    void begin(const DisplayLook& current_pictures);
+    void begin(const DisplayLook& look);
     // Continues for the given number of milliseconds, or slightly longer. A GPU finishes at once; with a software rasterizer a
     // large picture takes several UI frames, without blocking any of them.
     void advance(double milliseconds);

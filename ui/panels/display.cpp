@@ -60,9 +60,9 @@ void draw_transform_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     static constexpr const char* no_look = "View's default";
     std::vector<std::string> looks = c.color.looks();
     looks.insert(looks.begin(), no_look);
-    std::string current_pictures = v.current_pictures.empty() ? no_look : v.current_pictures;
-    if (f.choice("Look", current_pictures, looks, "A grade that is applied before the view transform, for example contrast."))
-        v.current_pictures = current_pictures == no_look ? "" : current_pictures;
+    std::string look = v.look.empty() ? no_look : v.look;
+    if (f.choice("Look", look, looks, "A grade that is applied before the view transform, for example contrast."))
+        v.look = look == no_look ? "" : look;
     f.checkbox("Backdrop as it is", v.background_as_it_is,
                "Do not apply exposure, white balance, look and view transform to the background: a backdrop image keeps its own colours.");
     f.info("Colours from", c.color.config_name(),

@@ -113,8 +113,7 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
     pass_.upload(width, height, std::move(rgba));
 }
 
-void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures,
-                         const FrameBudget& pace) {
+void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FrameBudget& pace) {
     if (shader_changed_ && shader_) {
         if (const auto set = pass_.set_shader(*shader_); !set) c.ui.toasts.fail(set.error().text());
     }
@@ -127,7 +126,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
         if (a.id != live_image) wanted.a = a.pictures.frame, wanted.mix_a = mix_of_side(c, a);
         if (b.id != live_image) wanted.b = b.pictures.frame, wanted.mix_b = mix_of_side(c, b);
     }
-    DisplayLook plain = current_pictures;
+    DisplayLook plain = look;
     plain.mix = {};
     if (difference && compare.kind != DifferenceKind::absolute) plain.numbers.false_color = {};
     const bool other_picture = !pass_.busy() && shown_ != wanted;
@@ -181,8 +180,7 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
-void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures,
-                       const FrameBudget& pace) {
+void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace) {
     Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode == Mode::off) {
         c.ui.difference.reset();
@@ -191,7 +189,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
     const ComparedSide a = compared_side(c, compare.a), b = compared_side(c, compare.b);
     if (a.id == b.id || !a.pictures.frame || !b.pictures.frame) return;
     ask_difference(c, a, b);
-    update(c, a, b, current_pictures, pace);
+    update(c, a, b, look, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
     const float em = ImGui::GetFontSize();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);

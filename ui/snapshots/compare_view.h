@@ -26,7 +26,7 @@ class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
     // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
-    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& current_pictures, const FrameBudget& pace);
+    void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace);
 
 private:
     // Rectangle of a picture in a texture.
@@ -36,8 +36,7 @@ private:
         float aspect = 0; // of the picture; 0: same as the live one
     };
     void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
-    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& current_pictures,
-                const FrameBudget& pace);
+    void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FrameBudget& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
     void draw_wipe(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const ImageRect& image, const ImageRect& seen);

@@ -156,16 +156,16 @@ void ThumbnailSheet::update(const std::vector<SnapshotPtr>& list, const DisplayP
     if (other_shader && !pass_.set_shader(*shader_)) return; // the viewport reports the error
     std::vector<uint64_t> ids;
     for (const SnapshotPtr& s : list) ids.push_back(s->id);
-    DisplayLook current_pictures{numbers, {}};
-    current_pictures.numbers.false_color = {}; // no false colours: thumbnails should be recognisable, and have no albedo for lux
+    DisplayLook look{numbers, {}};
+    look.numbers.false_color = {}; // no false colours: thumbnails should be recognisable, and have no albedo for lux
     if (ids != ids_) {
         std::vector<float> rgba;
         for (const SnapshotPtr& s : list) rgba.insert(rgba.end(), s->thumbnail.rgba.begin(), s->thumbnail.rgba.end());
         pass_.upload(Thumbnail::width, Thumbnail::height * int(list.size()), std::move(rgba));
     }
-    if (ids != ids_ || other_shader || current_pictures != look_) pass_.begin(current_pictures);
+    if (ids != ids_ || other_shader || look != look_) pass_.begin(look);
     ids_ = ids;
-    look_ = current_pictures;
+    look_ = look;
     while (pass_.busy()) pass_.advance(1);
 }
 

@@ -40,7 +40,7 @@ void Navigation::press() {
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         start(0, io.KeyShift ? Mode::pan : Mode::orbit, io.KeyShift || !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
-        start(1, io.KeyAlt ? Mode::dolly : Mode::current_pictures, !io.KeyAlt);
+        start(1, io.KeyAlt ? Mode::dolly : Mode::look, !io.KeyAlt);
     else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle))
         start(2, io.KeyShift || io.KeyAlt ? Mode::pan : Mode::orbit, false);
 }
@@ -56,7 +56,7 @@ void Navigation::drag(NavigationResult& result, const View& view, const ImageRec
             case Mode::orbit: result.view = orbit(view, -dx * turn_per_height, dy * turn_per_height); break;
             case Mode::pan: result.view = pan(view, dx, dy); break;
             case Mode::dolly: result.view = dolly(view, std::exp2(2 * (dy - dx))); break;
-            case Mode::current_pictures: result.view = look_around(view, -dx * turn_per_height / 2, -dy * turn_per_height / 2); break;
+            case Mode::look: result.view = look_around(view, -dx * turn_per_height / 2, -dy * turn_per_height / 2); break;
             case Mode::expose: result.brighter = float(stops_per_height * (dx - dy)); break;
             case Mode::shift:
                 result.shift_x = dx * image.height;
@@ -68,7 +68,7 @@ void Navigation::drag(NavigationResult& result, const View& view, const ImageRec
         }
     }
     const Vec3d motion = wanted_motion();
-    if (mode_ == Mode::current_pictures && (motion.x != 0 || motion.y != 0 || motion.z != 0)) {
+    if (mode_ == Mode::look && (motion.x != 0 || motion.y != 0 || motion.z != 0)) {
         const double seconds = std::min(ImGui::GetIO().DeltaTime, 0.1f);
         const double step = speed * seconds * view.pivot_distance * (ImGui::GetIO().KeyShift ? 4 : 1);
         result.view = fly(result.view.value_or(view), {motion.x * step, motion.y * step, motion.z * step});

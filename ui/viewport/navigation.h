@@ -28,7 +28,7 @@ public:
     bool busy() const { return mode_ != Mode::none; }
 
 private:
-    enum class Mode { none, orbit, pan, dolly, current_pictures, expose, shift, turn_surroundings };
+    enum class Mode { none, orbit, pan, dolly, look, expose, shift, turn_surroundings };
     void press();
     void drag(NavigationResult& result, const View& view, const ImageRect& image);
     void release(NavigationResult& result);

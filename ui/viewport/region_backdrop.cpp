@@ -35,19 +35,19 @@ void RegionBackdrop::forget() {
     drawn_ = false;
 }
 
-bool RegionBackdrop::update(const DisplayLook& current_pictures, const PictureView& view, const FrameBudget& pace) {
+bool RegionBackdrop::update(const DisplayLook& look, const PictureView& view, const FrameBudget& pace) {
     if (!frame_ || !shader_) return true;
     const bool special = is_special(*frame_, view);
-    Shown wanted{frame_, current_pictures, view};
-    if (special || !denoised_) wanted.current_pictures.mix = {};
+    Shown wanted{frame_, look, view};
+    if (special || !denoised_) wanted.look.mix = {};
     if (shader_changed_ && !pass_.set_shader(*shader_)) return true; // the display pass of the picture has already reported the error
     if (shader_changed_ || (!pass_.busy() && shown_ != wanted)) {
         if (special)
             pass_.upload(frame_->width, frame_->height, pixels_of(*frame_, view));
         else
             pass_.upload(frame_);
-        if (wanted.current_pictures.mix.denoised_weight != 0) pass_.upload(denoised_);
-        pass_.begin(wanted.current_pictures);
+        if (wanted.look.mix.denoised_weight != 0) pass_.upload(denoised_);
+        pass_.begin(wanted.look);
         shown_ = wanted;
     }
     shader_changed_ = false;

@@ -23,7 +23,7 @@ public:
     // True if there is such a picture and it is ready to be drawn.
     bool ready() const { return drawn_; }
     // Continues to render it with the current view settings while there is time. Returns false while it is not finished.
-    bool update(const DisplayLook& current_pictures, const PictureView& view, const FrameBudget& pace);
+    bool update(const DisplayLook& look, const PictureView& view, const FrameBudget& pace);
     // Draws it dimmed around the region; `image` is the rectangle of the whole picture.
     void draw(ImDrawList& draw, const ImageRect& image, const PictureRegion& region) const;
 
@@ -35,7 +35,7 @@ private:
     bool shader_changed_ = false, drawn_ = false;
     struct Shown {
         FramePtr frame;
-        DisplayLook current_pictures;
+        DisplayLook look;
         PictureView view;
         bool operator==(const Shown&) const = default;
     } shown_;

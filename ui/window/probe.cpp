@@ -32,7 +32,7 @@ void Probe::end_frame(const ProbeState& state) {
     for (const Item& item : items_) items += (items.empty() ? "  " : ",\n  ") + to_text(item.name) + ": " + to_text(to_json(item.region));
     const nlohmann::json shown{{"image", to_json(state.image)},  {"width", state.width},       {"height", state.height},
                                {"samples", state.samples},       {"complete", state.complete}, {"revision", state.revision},
-                               {"up_to_date", state.up_to_date}, {"toast", state.toast},       {"look", state.current_pictures}};
+                               {"up_to_date", state.up_to_date}, {"toast", state.toast},       {"look", state.shown}};
     const std::filesystem::path temporary = file_.string() + ".new";
     std::ofstream(temporary) << "{\"state\": " << to_text(shown) << ",\n \"items\": {\n" << items << "\n}}\n";
     std::error_code ignored; // the next change writes it again

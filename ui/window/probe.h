@@ -16,10 +16,10 @@ struct ProbeState {
     int width = 0, height = 0;
     int64_t samples = 0;
     bool complete = false;
-    uint64_t revision = 0;             // number of edits that affect the picture
-    bool up_to_date = false;           // the picture shows the latest edit
-    std::string toast;                 // the newest toast
-    std::string current_pictures = {}; // shown_text(): raw, denoised, ...
+    uint64_t revision = 0;   // number of edits that affect the picture
+    bool up_to_date = false; // the picture shows the latest edit
+    std::string toast;       // the newest toast
+    std::string shown = {};  // shown_text(): raw, denoised, ...
     bool operator==(const ProbeState&) const = default;
 };
 

@@ -59,7 +59,7 @@ struct Runner {
     }
 };
 
-MeasuredPoint current_pictures(const Runner& runner, int repeat, const MeasuredImage& reference, double reference_mse) {
+MeasuredPoint measured_point(const Runner& runner, int repeat, const MeasuredImage& reference, double reference_mse) {
     MeasuredPoint p{repeat, runner.seconds, runner.samples, {}, repeat == 0, false};
     const Frame frame = runner.renderer->resolve();
     RgbImage image{frame.width, frame.height, {}};
@@ -142,7 +142,7 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
             Runner& runner = runners[size_t(turn)];
             runner.take_turn(input);
             if (runner.looks.due(runner.seconds) || runner.done)
-                result.variants[size_t(turn)].points.push_back(current_pictures(runner, repeat, reference, reference_mse));
+                result.variants[size_t(turn)].points.push_back(measured_point(runner, repeat, reference, reference_mse));
         }
         for (size_t v = 0; v < runners.size(); ++v)
             if (runners[v].samples >= 2)

@@ -31,9 +31,9 @@ int64_t next_batch(int64_t last_count, double last_seconds, int64_t left) {
 }
 
 int64_t next_error_look(int64_t samples) {
-    int64_t current_pictures = 2;
-    while (current_pictures <= samples) current_pictures = std::max(current_pictures + 1, current_pictures * 5 / 4);
-    return current_pictures;
+    int64_t next = 2;
+    while (next <= samples) next = std::max(next + 1, next * 5 / 4);
+    return next;
 }
 
 double stop_progress(const RenderSettings& settings, int64_t samples, double seconds, const ErrorEstimate& error) {

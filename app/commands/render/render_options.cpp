@@ -204,7 +204,7 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
                  "Do not apply exposure, white balance, look and view to the background, only for display output");
     app.add_option("--exposure", view.exposure_ev, "Exposure in stops, only for display output: never in an EXR [0]")->type_name("EV");
     app.add_option("--view", view.view, "View transform, only for display output [the config's default]")->type_name("NAME");
-    app.add_option("--look", view.current_pictures, "Look, only for display output [the view's default]")->type_name("NAME");
+    app.add_option("--look", view.look, "Look, only for display output [the view's default]")->type_name("NAME");
     app.add_option("--display", view.display, "Display, only for display output [the config's default]")->type_name("NAME");
 }
 

@@ -39,7 +39,7 @@ float next_round_number(float x) {
 
 } // namespace
 
-DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.current_pictures}; }
+DisplayTransform transform_of(const ViewSettings& view) { return {view.display, view.view, view.look}; }
 
 DisplayParameters display_parameters_of(const ViewSettings& view) {
     return {view.exposure_ev, view.gamma, white_balance(view.white), scale_of(view.false_color), view.background_as_it_is};

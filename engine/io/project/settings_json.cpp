@@ -127,7 +127,7 @@ std::string view_settings_json(const ViewSettings& s) {
     json["gamma"] = s.gamma;
     json["display"] = s.display;
     json["view"] = s.view;
-    json["look"] = s.current_pictures;
+    json["look"] = s.look;
     json["auto_exposure"] = to_string(s.auto_exposure);
     json["white"] = {s.white.x, s.white.y, s.white.z};
     json["false_color"] = to_string(s.false_color);
@@ -191,7 +191,7 @@ Result<ParsedSettings<ViewSettings>> parse_view_settings(std::string_view text, 
         {"gamma", plain(s.gamma)},
         {"display", plain(s.display)},
         {"view", plain(s.view)},
-        {"look", plain(s.current_pictures)},
+        {"look", plain(s.look)},
         {"auto_exposure", word(s.auto_exposure, parse_auto_exposure)},
         {"white", numbers<3>([&s](const auto& n) {
              s.white = {n[0], n[1], n[2]};

@@ -108,7 +108,7 @@ private:
             store(to_root + x, sqrt(wa * (1 - wa)));
         }
         for (size_t c = 0; c < 3; ++c) {
-            surroundings_.current_pictures(c, y, row.own[c], around_);
+            surroundings_.means(c, y, row.own[c], around_);
             add_channel(row, c, sums);
         }
         const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();

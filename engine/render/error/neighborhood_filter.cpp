@@ -48,7 +48,7 @@ void NeighborhoodFilter::sum_block_row(int y) {
     }
 }
 
-void NeighborhoodFilter::current_pictures(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const {
+void NeighborhoodFilter::means(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const {
     if (width_ < 2 || height_ < 2) {
         around.mean = around.darkest = own;
         return;

@@ -18,7 +18,7 @@ public:
         PixelRow mean;    // of the four blocks' means
         PixelRow darkest; // the smallest of these means
     };
-    void current_pictures(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const;
+    void means(size_t channel, int y, const PixelRow& own, NeighborhoodMeans& around) const;
 
 private:
     static constexpr int kept = 4; // rows

@@ -52,8 +52,8 @@ TEST(NeighborhoodFilter, AreMeansOfTheNeighbouringBlocks) {
         NeighborhoodFilter surroundings(w, h);
         NeighborhoodFilter::NeighborhoodMeans around{PixelRow(w), PixelRow(w)};
         const auto own = [&](int x, int y) { return double(rows[size_t(y)].own[0][x]); };
-        const auto current_pictures = [&](int y) {
-            surroundings.current_pictures(0, y, rows[size_t(y)].own[0], around);
+        const auto compare_row = [&](int y) {
+            surroundings.means(0, y, rows[size_t(y)].own[0], around);
             for (int x = 0; x < w; ++x) {
                 std::vector<double> means;
                 for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
@@ -75,9 +75,9 @@ TEST(NeighborhoodFilter, AreMeansOfTheNeighbouringBlocks) {
         for (int y = 0; y < h; ++y) {
             halves.rows().load(y, 1, rows[size_t(y)]);
             surroundings.add_row(rows[size_t(y)].own, y);
-            if (y >= 2) current_pictures(y - 2);
+            if (y >= 2) compare_row(y - 2);
         }
-        for (int y = std::max(0, h - 2); y < h; ++y) current_pictures(y);
+        for (int y = std::max(0, h - 2); y < h; ++y) compare_row(y);
     }
 }
 

@@ -15,7 +15,7 @@ struct Bench {
     int estimates = 0;
 
     ErrorCadence::Picture picture(bool wanted = false) const { return {samples, pixels, sample_seconds * double(samples), wanted}; }
-    void current_pictures(bool wanted = false) {
+    void publish(bool wanted = false) {
         if (!cadence.due(picture(wanted))) return;
         cadence.record(picture(wanted), estimate_seconds);
         ++estimates;
@@ -23,7 +23,7 @@ struct Bench {
     void render(int count) {
         for (int i = 0; i < count; ++i) {
             ++samples;
-            current_pictures();
+            publish();
         }
     }
 };
@@ -51,7 +51,7 @@ TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {
     Bench bench;
     bench.render(3);
     const int estimates = bench.estimates;
-    for (int i = 0; i < 5; ++i) bench.current_pictures(true);
+    for (int i = 0; i < 5; ++i) bench.publish(true);
     EXPECT_EQ(bench.estimates, estimates + 5);
     EXPECT_DOUBLE_EQ(bench.cadence.spent(), estimate_seconds * bench.estimates) << "and counted";
 }
@@ -59,7 +59,7 @@ TEST(ErrorCadence, ARequestedEstimateIsDoneAtAnyCost) {
 TEST(ErrorCadence, NeedsTwoSamples) {
     Bench bench;
     bench.render(1);
-    bench.current_pictures(true);
+    bench.publish(true);
     EXPECT_EQ(bench.estimates, 0);
 }
 

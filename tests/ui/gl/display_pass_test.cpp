@@ -78,7 +78,7 @@ protected:
         ASSERT_EQ(card.size(), processor.size());
         double worst = 0;
         for (size_t i = 0; i < card.size(); ++i) worst = std::max(worst, std::abs(double(card[i]) - double(processor[i])));
-        EXPECT_LE(worst, tolerance) << transform.display << ", " << transform.view << ", " << transform.current_pictures;
+        EXPECT_LE(worst, tolerance) << transform.display << ", " << transform.view << ", " << transform.look;
     }
 
     static inline std::unique_ptr<Window> window;
@@ -89,7 +89,7 @@ TEST_F(DisplayPassTest, EveryViewAndLookMatchesFiles) {
     const DisplayParameters numbers{.exposure_ev = -0.7f, .gamma = 1.2f, .white_balance = white_balance({1, 0.7f, 0.35f})};
     for (const auto& display : color->displays())
         for (const auto& view : color->views(display)) expect_twins(test_picture(), {display, view}, numbers);
-    for (const auto& current_pictures : color->looks()) expect_twins(test_picture(), {"", "", current_pictures}, numbers);
+    for (const auto& look : color->looks()) expect_twins(test_picture(), {"", "", look}, numbers);
 }
 
 TEST_F(DisplayPassTest, UnprocessedBackgroundMatchesFiles) {
