@@ -34,6 +34,7 @@ Json run_denoise(const Options& options);
 Json run_estimate(const Options& options);
 Json run_error_coverage(const Options& options);
 Json run_recorder(const Options& options);
+Json run_light_edits(const Options& options);
 Json run_many_lights(const Options& options);
 Json run_mix(const Options& options);
 Json run_textures(const Options& options);

@@ -4,15 +4,9 @@
 #include "tests/bench/latency_probe.h"
 
 #include <random>
-#include <thread>
 
 namespace blush::bench {
 namespace {
-
-// Lets the session refine for a random time.
-void let_it_work(std::mt19937& random) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
-}
 
 Json measure(const BenchScene& scene, const Options& options) {
     const RenderSettings settings = window_settings();

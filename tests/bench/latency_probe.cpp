@@ -1,6 +1,8 @@
 #include "tests/bench/latency_probe.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace blush::bench {
 
@@ -34,6 +36,10 @@ std::optional<Response> LatencyProbe::measure(const Scene& scene, const RenderSe
     seen_full_.wait(lock, [&] { return failed_ || response_.full_ms > 0; });
     if (failed_) return std::nullopt;
     return response_;
+}
+
+void let_it_work(std::mt19937& random) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
 }
 
 Json figures_of(const std::vector<Response>& responses) {

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <random>
 
 namespace blush::bench {
 
@@ -16,6 +17,8 @@ struct Response {
     double full_ms = 0;    // to the first image of full size
 };
 
+// Lets the session refine for a random time.
+void let_it_work(std::mt19937& random);
 // `responses` must not be empty.
 Json figures_of(const std::vector<Response>& responses);
 

@@ -28,6 +28,8 @@ constexpr Case cases[]{
     {{"coverage", "How often the intervals of the estimated error contain the true one"}, run_error_coverage},
     {{"recorder", "Cost of tracking the error while rendering"}, run_recorder},
     {{"lights", "Variance and cost of light selection with many lights"}, run_many_lights},
+    {{"light_edits", "Time from an edit of a light to the first image, beside one mesh, a million copies of it, emissive triangles"},
+     run_light_edits},
     {{"mix", "Light groups: time, cost, memory"}, run_mix},
     {{"big", "Time to the first image, and memory, of a million and ten million triangles and a million instances"}, run_big_scenes},
     {{"textures", "Loading 64 textures; cost and benefit of filtering"}, run_textures},
