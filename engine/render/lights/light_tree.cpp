@@ -22,22 +22,28 @@ Vec3d upper(const Vec3d& a, const Vec3d& b) { return {std::max(a.x, b.x), std::m
 // The smallest cone that contains both (Pharr, Jakob, Humphreys, 3.8.4).
 void unite_cones(LightBounds& a, const LightBounds& b) {
     if (a.theta_o >= std::numbers::pi) return;
-    const double between = std::acos(std::clamp(dot(a.axis, b.axis), -1.0, 1.0));
+    const double cosine = std::clamp(dot(a.axis, b.axis), -1.0, 1.0);
+    // Surely inside: the margin is far above the rounding error of the arc cosine, which takes most of the time.
+    if (b.theta_o == 0 && cosine > a.cos_o + 1e-9) return;
+    const double between = std::acos(cosine);
     if (std::min(between + b.theta_o, std::numbers::pi) <= a.theta_o) return;
     if (std::min(between + a.theta_o, std::numbers::pi) <= b.theta_o) {
         a.axis = b.axis;
         a.theta_o = b.theta_o;
+        a.cos_o = b.cos_o;
         return;
     }
     const double theta = 0.5 * (a.theta_o + between + b.theta_o), turn = theta - a.theta_o;
     const Vec3d about = cross(a.axis, b.axis);
     if (theta >= std::numbers::pi || !(dot(about, about) > 0)) {
         a.theta_o = std::numbers::pi;
+        a.cos_o = -1;
         return;
     }
     const Vec3d aside = normalize(cross(about, a.axis));
     a.axis = normalize(a.axis * std::cos(turn) + aside * std::sin(turn));
     a.theta_o = theta;
+    a.cos_o = std::cos(theta);
 }
 
 // Empty bounds have power 0.
@@ -60,9 +66,9 @@ double cost(const LightBounds& b) {
     if (b.power <= 0) return 0;
     const Vec3d size = b.high - b.low;
     const double area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    const double o = b.theta_o, w = std::min(o + b.theta_e, std::numbers::pi);
-    const double cone = 2 * std::numbers::pi * (1 - std::cos(o)) +
-                        std::numbers::pi / 2 * (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
+    const double o = b.theta_o, w = std::min(o + b.theta_e, std::numbers::pi), cos_o = b.cos_o, sin_o = o == 0 ? 0 : std::sin(o);
+    const double cone =
+        2 * std::numbers::pi * (1 - cos_o) + std::numbers::pi / 2 * (2 * w * sin_o - std::cos(o - 2 * w) - 2 * o * sin_o + cos_o);
     return b.power * cone * (area + 1e-6 * dot(size, size));
 }
 
@@ -125,8 +131,9 @@ struct TreeBuilder {
             LightBounds from_left{};
             const double stretch = component(size, longest) / component(size, axis);
             for (size_t k = 0; k + 1 < buckets; ++k) {
+                if (sums[k].power <= 0) continue; // the split after the last bucket again
                 unite(from_left, sums[k]);
-                if (from_left.power <= 0 || from_right[k + 1].power <= 0) continue;
+                if (from_right[k + 1].power <= 0) break;
                 const double total = stretch * (cost(from_left) + cost(from_right[k + 1]));
                 if (best_axis >= 0 && total >= best) continue;
                 best = total;
@@ -177,6 +184,7 @@ LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_c
         const Vec3d sum = b.low + b.high + b.axis;
         return !(b.power > 0) || !std::isfinite(sum.x + sum.y + sum.z);
     });
+    for (LightBounds& b : lights) b.cos_o = std::cos(b.theta_o);
     table.trails.assign(size_t(light_count), 0);
     table.depths.assign(size_t(light_count), -1);
     if (lights.empty()) return table;

@@ -14,6 +14,7 @@ struct LightBounds {
     Vec3d low{0, 0, 0}, high{0, 0, 0};
     Vec3d axis{0, 0, -1}; // unit
     double theta_o = 0;   // half angle of the cone of its normals; pi: all directions
+    double cos_o = 1;     // its cosine, set by build_light_tree
     double theta_e = 0;   // emission angle beyond a normal
     double power = 0;
     bool two_sided = false;
