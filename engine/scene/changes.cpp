@@ -3,6 +3,7 @@
 #include "scene/lights/ies_profile.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace blush {
 namespace {
@@ -68,6 +69,50 @@ void diff_nodes(const Scene& before, const Scene& after, Changes& changes) {
         if (shown_or_hidden || !same_shape || a->light != b->light || a->only_in_scenes != b->only_in_scenes ||
             a->shadow_catcher != b->shadow_catcher)
             changes.structure.push_back(id);
+    }
+}
+
+// Tells whether nodes are, or are below, one of some moved nodes. Visits each node once, however deep the hierarchy is.
+class MovedSubtrees {
+public:
+    // `moved` in id order.
+    MovedSubtrees(const Scene& scene, const std::vector<Id<Node>>& moved) : scene_(scene), moved_(moved) {}
+
+    bool contains(Id<Node> id) {
+        path_.clear();
+        bool below = false;
+        // The depth is at most the number of nodes: ends if the hierarchy has a cycle.
+        for (Id<Node> up = id; up && !below && path_.size() <= scene_.nodes.size();) {
+            if (const auto found = known_.find(up.value); found != known_.end()) {
+                below = found->second;
+                break;
+            }
+            below = std::ranges::binary_search(moved_, up);
+            const Node* node = scene_.nodes.find(up);
+            path_.push_back(up.value);
+            up = node ? node->parent : Id<Node>{};
+        }
+        // Leaves need not be known.
+        for (size_t i = 1; i < path_.size(); ++i) known_[path_[i]] = below;
+        return below;
+    }
+
+private:
+    const Scene& scene_;
+    const std::vector<Id<Node>>& moved_;
+    std::unordered_map<uint32_t, bool> known_; // nodes with children
+    std::vector<uint32_t> path_;
+};
+
+// Meshes move with their node, or with the joints of their skin.
+void diff_moved_meshes(const Scene& after, Changes& changes) {
+    if (changes.transforms.empty()) return;
+    MovedSubtrees moved(after, changes.transforms);
+    const auto has_moved = [&](Id<Node> id) { return moved.contains(id); };
+    for (const auto& [id, node] : after.nodes) {
+        if (!node.mesh) continue;
+        const Skin* skin = node.skin ? after.skins.find(node.skin) : nullptr;
+        if (moved.contains(id) || (skin && std::ranges::any_of(skin->joints, has_moved))) changes.moved_meshes.push_back(id);
     }
 }
 
@@ -139,6 +184,7 @@ Changes diff(const Scene& before, const RenderSettings& before_settings, const S
     diff_settings(before_settings, after_settings, changes);
     diff_environment(before.environment, after.environment, changes);
     diff_nodes(before, after, changes);
+    diff_moved_meshes(after, changes);
     diff_mix(before, after, changes);
     changes.motion = !same_moment(before, after) || !(before.skins == after.skins);
     changes.meshes = changes_of_image(before.meshes, after.meshes);

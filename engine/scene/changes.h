@@ -17,6 +17,7 @@ struct Changes {
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels
     std::vector<Id<Node>> transforms;    // local transform or parent changed
+    std::vector<Id<Node>> moved_meshes;  // nodes with a mesh that moved with these
     std::vector<Id<Node>> structure;     // node added, removed, shown, hidden; its mesh, deformation, light or instances changed
     bool motion = false;                 // clip, time, shown scene, or a skin
     std::vector<Id<Mesh>> meshes;        // geometry or material slot of a part changed; parts added or removed

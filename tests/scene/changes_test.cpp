@@ -16,7 +16,7 @@ using test::sample_project;
 // A comparable copy: gtest prints which part differs.
 struct Seen {
     bool view, resolution, integrator, stop_rules, environment_parameters, environment_image, motion;
-    std::vector<Id<Node>> transforms, structure;
+    std::vector<Id<Node>> transforms, moved_meshes, structure;
     std::vector<Id<Mesh>> meshes;
     std::vector<Id<Material>> materials;
     std::vector<Id<Texture>> textures;
@@ -33,6 +33,7 @@ Seen seen(const Changes& c) {
             c.environment_image,
             c.motion,
             c.transforms,
+            c.moved_meshes,
             c.structure,
             c.meshes,
             c.materials,
@@ -44,8 +45,8 @@ void PrintTo(const Seen& s, std::ostream* out) {
     *out << (s.view ? "view " : "") << (s.resolution ? "resolution " : "") << (s.integrator ? "integrator " : "")
          << (s.stop_rules ? "stop_rules " : "") << (s.environment_parameters ? "environment_parameters " : "")
          << (s.environment_image ? "environment_image " : "") << (s.motion ? "motion " : "") << s.transforms.size() << " transforms "
-         << s.structure.size() << " structure " << s.meshes.size() << " meshes " << s.materials.size() << " materials " << s.textures.size()
-         << " textures " << s.lights.size() << " lights";
+         << s.moved_meshes.size() << " moved meshes " << s.structure.size() << " structure " << s.meshes.size() << " meshes "
+         << s.materials.size() << " materials " << s.textures.size() << " textures " << s.lights.size() << " lights";
 }
 
 Changes diff(const Project& a, const Project& b) { return blush::diff(a.scene, a.render, b.scene, b.render); }
@@ -82,7 +83,7 @@ TEST(Diff, EqualProjectsDifferInNothing) {
 TEST(Diff, NodeEdits) {
     const Sample s = sample_project();
     const auto of = [&](auto&& with) { return seen(changes_of(s, SetNode{s.mug, changed(s, s.mug, with)})); };
-    const Seen transform = only([&](Changes& c) { c.transforms = {s.mug}; });
+    const Seen transform = only([&](Changes& c) { c.transforms = c.moved_meshes = {s.mug}; });
     const Seen structure = only([&](Changes& c) { c.structure = {s.mug}; });
     EXPECT_EQ(of([](Node& n) { n.name = "Cup"; }), nothing);
     EXPECT_EQ(of([](Node& n) { n.local.translation.x += 1; }), transform);
@@ -114,7 +115,7 @@ TEST(Diff, ReparentingBelowAHiddenNodeHidesIt) {
     Sample s = sample_project();
     s.project = *blush::apply(s.project, SetNode{s.table, changed(s, s.table, [](Node& n) { n.visible = false; })});
     EXPECT_EQ(seen(changes_of(s, SetNode{s.mug, changed(s, s.mug, [&](Node& n) { n.parent = s.table; })})), only([&](Changes& c) {
-                  c.transforms = {s.mug};
+                  c.transforms = c.moved_meshes = {s.mug};
                   c.structure = {s.mug};
               }));
 }

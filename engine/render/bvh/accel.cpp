@@ -48,6 +48,7 @@ struct SceneHandle {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<AlphaPart>> alpha_parts;
     std::vector<std::shared_ptr<const void>> owners;
+    uint32_t next_id = 0;         // of the next geometry
     size_t compact_triangles = 0; // all of them if the leaves store indices; 0 if the leaves store vertices
 
     SceneHandle() = default;
@@ -58,11 +59,12 @@ struct SceneHandle {
     }
     SceneHandle(SceneHandle&& other) noexcept
         : scene(std::exchange(other.scene, nullptr)), alpha_parts(std::move(other.alpha_parts)), owners(std::move(other.owners)),
-          compact_triangles(other.compact_triangles) {}
+          next_id(other.next_id), compact_triangles(other.compact_triangles) {}
     SceneHandle& operator=(SceneHandle&& other) noexcept {
         std::swap(scene, other.scene);
         std::swap(alpha_parts, other.alpha_parts);
         std::swap(owners, other.owners);
+        std::swap(next_id, other.next_id);
         std::swap(compact_triangles, other.compact_triangles);
         return *this;
     }
@@ -107,7 +109,7 @@ struct SceneHandle {
     void attach(RTCGeometry geometry, uint32_t mask) {
         rtcSetGeometryMask(geometry, mask);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
+        rtcAttachGeometryByID(scene, geometry, next_id++);
         rtcReleaseGeometry(geometry);
     }
     void commit(const Workers& workers) {
@@ -203,16 +205,40 @@ template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int cou
     }
 }
 
+// The scenes to trace. Lamps may have one of their own (null: they have not), whose geometries follow each other in the order of their
+// numbers in the top level: meshes from `first_mesh`, then spheres from `first_sphere`.
+struct TracedScenes {
+    RTCScene top, lamps;
+    uint32_t lamp_meshes, first_mesh, first_sphere;
+    float reach; // largest sum of coordinates of a ray that is traced
+};
+
+// Continues q, which holds the hits of the top level, in the scene of the lamps.
+template <int N> void intersect_lamps(const TracedScenes& scenes, RTCIntersectContext& context, const int* valid, auto& q) {
+    alignas(64) uint32_t before[N];
+    std::copy_n(q.hit.geomID, N, before);
+    std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
+    Packet<N>::intersect(valid, scenes.lamps, &context, &q);
+    for (int i = 0; i < N; ++i) {
+        uint32_t& geometry = q.hit.geomID[i];
+        if (geometry == RTC_INVALID_GEOMETRY_ID)
+            geometry = before[i];
+        else
+            geometry += geometry < scenes.lamp_meshes ? scenes.first_mesh : scenes.first_sphere - scenes.lamp_meshes;
+    }
+}
+
 template <int N>
-void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, const HitArrays& hits) {
+void intersect_packets(const TracedScenes& scenes, RTCIntersectContext& context, const RayArrays& rays, int count, const HitArrays& hits) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::RayHit q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q.ray, rays, k);
         std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
-        valid_lanes<N>(valid, q.ray, count - k, reach);
-        Packet<N>::intersect(valid, scene, &context, &q);
+        valid_lanes<N>(valid, q.ray, count - k, scenes.reach);
+        Packet<N>::intersect(valid, scenes.top, &context, &q);
+        if (scenes.lamps) intersect_lamps<N>(scenes, context, valid, q);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
         copy(hits.u, q.hit.u);
@@ -224,13 +250,17 @@ void intersect_packets(RTCScene scene, RTCIntersectContext& context, const RayAr
 }
 
 template <int N>
-void occluded_packets(RTCScene scene, RTCIntersectContext& context, const RayArrays& rays, int count, float reach, uint8_t* blocked) {
+void occluded_packets(const TracedScenes& scenes, RTCIntersectContext& context, const RayArrays& rays, int count, uint8_t* blocked) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::Ray q;
     for (int k = 0; k < count; k += N) {
         load_rays<N>(q, rays, k);
-        valid_lanes<N>(valid, q, count - k, reach);
-        Packet<N>::occluded(valid, scene, &context, &q);
+        valid_lanes<N>(valid, q, count - k, scenes.reach);
+        Packet<N>::occluded(valid, scenes.top, &context, &q);
+        if (scenes.lamps) {
+            for (int i = 0; i < N; ++i) valid[i] &= -int(q.tfar[i] >= 0);
+            Packet<N>::occluded(valid, scenes.lamps, &context, &q);
+        }
         const int n = std::min(N, count - k);
         for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
     }
@@ -268,7 +298,10 @@ struct Accel::State {
     RTCDevice device = nullptr;
     int packet = 4;
     std::map<BottomKey, SceneHandle> bottoms;
-    SceneHandle top;
+    bool own_lamps = false;              // lamps have a scene of their own
+    SceneHandle top, lamps;              // lamps.scene: null if the top level holds them, or if there are none
+    uint32_t first_lamp = 0;             // number of the first mesh of a lamp in the top level
+    uint32_t lamp_meshes = 0;            // in the scene of the lamps
     uint32_t first_instance = 0;         // Embree id of the first instance in the top level
     uint32_t first_sphere = 0;           // Embree id of the first sphere geometry, after the instances
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
@@ -289,13 +322,47 @@ struct Accel::State {
     }
     ~State() {
         top = {};
+        lamps = {};
         bottoms.clear();
         rtcReleaseDevice(device);
     }
+    void add_spheres(SceneHandle& to, std::span<const AccelSphere> spheres);
+    void check_for_errors() const {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+            throw std::runtime_error(why_not_built(error, memory));
+    }
+    TracedScenes scenes() const { return {top.scene, lamps.scene, lamp_meshes, first_lamp, first_sphere, reach}; }
 };
+
+// Embree masks apply to whole geometries: consecutive spheres with equal masks share one.
+void Accel::State::add_spheres(SceneHandle& to, std::span<const AccelSphere> spheres) {
+    sphere_indices.clear();
+    for (size_t begin = 0, end = 0; begin < spheres.size(); begin = end) {
+        while (end < spheres.size() && spheres[end].mask == spheres[begin].mask) ++end;
+        to.add_spheres(device, spheres.subspan(begin, end - begin));
+        sphere_indices.push_back(int32_t(begin));
+    }
+}
 
 Accel::Accel() : state_(std::make_unique<State>()) {}
 Accel::~Accel() = default;
+
+bool Accel::has_lamp_bvh() const { return state_->own_lamps; }
+
+void Accel::commit_lamps(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
+                         const Workers& workers) {
+    State& s = *state_;
+    s.lamps = {};
+    s.sphere_indices.clear();
+    s.lamp_meshes = uint32_t(meshes.size());
+    if (meshes.empty() && spheres.empty()) return;
+    SceneHandle lamps(s.device);
+    for (const AccelTriangles& triangles : meshes) lamps.add_triangles(s.device, triangles, tables);
+    s.add_spheres(lamps, spheres);
+    lamps.commit(workers);
+    s.check_for_errors();
+    s.lamps = std::move(lamps);
+}
 
 void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers) {
     State& s = *state_;
@@ -303,12 +370,18 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     s.alpha = false;
     float reach = embree_range;
 
+    size_t copies = 0;
+    for (const AccelInstances& instances : scene.instances) copies += instances.places.size();
+    s.lamps = {};
+    s.own_lamps = copies >= min_instances_for_lamp_bvh;
+    s.first_lamp = uint32_t(s.own_lamps ? std::min(scene.first_lamp, scene.flat.size()) : scene.flat.size());
     SceneHandle top(s.device);
-    for (const AccelTriangles& triangles : scene.flat) {
-        top.add_triangles(s.device, triangles, tables);
-        s.alpha |= triangles.alpha;
+    for (size_t i = 0; i < scene.flat.size(); ++i) {
+        if (i < s.first_lamp) top.add_triangles(s.device, scene.flat[i], tables);
+        s.alpha |= scene.flat[i].alpha;
     }
-    s.first_instance = uint32_t(scene.flat.size());
+    // Numbers do not depend on where the lamps are: stochastic opacity is a function of the instance's.
+    top.next_id = s.first_instance = uint32_t(scene.flat.size());
     uint32_t instance_count = 0;
     for (const AccelInstances& instances : scene.instances) {
         const BottomKey key = key_of(instances);
@@ -332,16 +405,12 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         instance_count += uint32_t(instances.places.size());
     }
     s.first_sphere = s.first_instance + instance_count;
-    s.sphere_indices.clear();
-    // Embree masks apply to whole geometries: consecutive spheres with equal masks share one.
-    for (size_t begin = 0, end = 0; begin < scene.spheres.size(); begin = end) {
-        while (end < scene.spheres.size() && scene.spheres[end].mask == scene.spheres[begin].mask) ++end;
-        top.add_spheres(s.device, std::span(scene.spheres).subspan(begin, end - begin));
-        s.sphere_indices.push_back(int32_t(begin));
-    }
+    if (s.own_lamps)
+        commit_lamps(std::span(scene.flat).subspan(s.first_lamp), scene.spheres, tables, workers);
+    else
+        s.add_spheres(top, scene.spheres);
     top.commit(workers);
-    if (const RTCError error = rtcGetDeviceError(s.device); error != RTC_ERROR_NONE)
-        throw std::runtime_error(why_not_built(error, s.memory));
+    s.check_for_errors();
     s.top = std::move(top);
     s.bottoms = std::move(kept);
     s.reach = reach;
@@ -368,10 +437,11 @@ RTCIntersectContext make_context(bool coherent, bool instances) {
 
 void Accel::intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
     RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
+    const TracedScenes scenes = state_->scenes();
     switch (state_->packet) {
-    case 16: intersect_packets<16>(state_->top.scene, context, rays, count, state_->reach, hits); break;
-    case 8: intersect_packets<8>(state_->top.scene, context, rays, count, state_->reach, hits); break;
-    default: intersect_packets<4>(state_->top.scene, context, rays, count, state_->reach, hits); break;
+    case 16: intersect_packets<16>(scenes, context, rays, count, hits); break;
+    case 8: intersect_packets<8>(scenes, context, rays, count, hits); break;
+    default: intersect_packets<4>(scenes, context, rays, count, hits); break;
     }
     // Embree numbers instances after the flat geometries
     const int32_t first_instance = int32_t(state_->first_instance), first_sphere = int32_t(state_->first_sphere);
@@ -389,10 +459,11 @@ void Accel::intersect(const RayArrays& rays, int count, bool coherent, const Hit
 
 void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const {
     RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
+    const TracedScenes scenes = state_->scenes();
     switch (state_->packet) {
-    case 16: occluded_packets<16>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
-    case 8: occluded_packets<8>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
-    default: occluded_packets<4>(state_->top.scene, context, rays, count, state_->reach, blocked); break;
+    case 16: occluded_packets<16>(scenes, context, rays, count, blocked); break;
+    case 8: occluded_packets<8>(scenes, context, rays, count, blocked); break;
+    default: occluded_packets<4>(scenes, context, rays, count, blocked); break;
     }
 }
 

@@ -76,24 +76,32 @@ Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
     ExpandedMeshes& meshes = known ? *known : none;
     meshes.tangents.provide(scene);
     meshes.bent.bend(scene);
-    Scene expanded = scene;
-    const int corners = disk_corners(scene);
-    for (const auto& [id, node] : scene.nodes) {
-        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !is_area_light(*light)) continue;
+    ExtendedTable<Node>::Records bodies;
+    ExtendedTable<Mesh>::Records shapes;
+    ExtendedTable<Material>::Records emitters;
+    const std::vector<Id<Node>> nodes = nodes_with_lights(scene);
+    const int corners = disk_corners(scene, nodes);
+    for (const Id<Node> id : nodes) {
+        const Node& node = *scene.nodes.find(id);
+        const Light* light = scene.lights.find(node.light);
+        if (!is_area_light(*light)) continue;
         // With a light mix, meshes of disabled lights remain, so that switching a light changes only its own emission.
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const AreaShape shape = shape_of(*light, corners);
         const uint32_t key = expanded_id_bit | node.light.value;
-        expanded.materials.insert(Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0}));
-        expanded.meshes.insert(Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}});
+        // Nodes may share a light; tables keep the first of equal records.
+        emitters.push_back({Id<Material>{key}, emitter(*light, light->enabled ? light_emission(*light) : Vec3{0, 0, 0})});
+        shapes.push_back({Id<Mesh>{key}, {light->name, {{shape.geometry, Id<Material>{key}}}}});
         Node body;
         body.parent = id;
         body.local.scale = shape.scale;
         body.mesh = Id<Mesh>{key};
-        expanded.nodes.insert(Id<Node>{expanded_id_bit | id.value}, std::move(body));
+        bodies.push_back({Id<Node>{expanded_id_bit | id.value}, std::move(body)});
     }
-    return expanded;
+    scene.nodes = meshes.nodes.extended(scene.nodes, std::move(bodies));
+    scene.meshes = meshes.meshes.extended(scene.meshes, std::move(shapes));
+    scene.materials = meshes.materials.extended(scene.materials, std::move(emitters));
+    return scene;
 }
 
 } // namespace blush

@@ -5,19 +5,45 @@
 #include "render/compile/tangent_meshes.h"
 #include "scene/scene.h"
 
+#include <utility>
+#include <vector>
+
 namespace blush {
 
-// Cache of the meshes that expansion made last time.
+// Records that expansion added to a table. The same records added to the same table give the table of last time, so that comparing two
+// expanded scenes need not read it.
+template <class T> class ExtendedTable {
+public:
+    using Records = std::vector<typename Table<T>::Entry>;
+
+    Table<T> extended(const Table<T>& table, Records more) {
+        if (table.shares_storage(table_) && more == more_) return extended_;
+        table_ = extended_ = table;
+        for (const auto& [id, value] : more) extended_.insert(id, value);
+        more_ = std::move(more);
+        return extended_;
+    }
+
+private:
+    Table<T> table_, extended_;
+    Records more_;
+};
+
+// Cache of what expansion made last time.
 struct ExpandedMeshes {
     TangentMeshes tangents;
     DeformedMeshes bent;
+    ExtendedTable<Node> nodes;
+    ExtendedTable<Mesh> meshes;
+    ExtendedTable<Material> materials;
 };
 
 // Returns the scene with solo (light_visibility.h) and its pose (posed_scene.h) applied and every enabled rectangle and disk light
 // replaced by an emissive mesh below its node (expanded_lights.h). A disk becomes a polygon of the same area with disk_corners()
 // corners (light_limits.h). With the most corners, area sampling is identical and the flux differs from the circle's by less than
 // a millionth, and kernels need no special case. With a light mix, disabled lights keep a black mesh. Meshes that need tangents
-// get them (tangent_meshes.h), and deforming meshes are deformed (deformed_meshes.h). `known` caches meshes between calls.
+// get them (tangent_meshes.h), and deforming meshes are deformed (deformed_meshes.h). `known` caches meshes and tables between
+// calls.
 Scene expand_area_lights(const Scene& scene, ExpandedMeshes* known = nullptr);
 
 } // namespace blush

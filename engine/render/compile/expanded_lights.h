@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace blush {
 
@@ -12,6 +13,10 @@ constexpr uint32_t expanded_id_bit = 0x80000000u;
 
 // True for light types that are expanded into a mesh.
 bool is_area_light(const Light& light);
+// True for the node of an area light's mesh.
+inline bool is_expanded(Id<Node> id) { return (id.value & expanded_id_bit) != 0; }
+// Nodes that carry a light, visible or not, in id order.
+std::vector<Id<Node>> nodes_with_lights(const Scene& scene);
 // The light whose mesh a node of the expanded scene is; nullptr: an ordinary node.
 const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> node);
 

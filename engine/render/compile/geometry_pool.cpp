@@ -1,6 +1,8 @@
 #include "render/compile/geometry_pool.h"
 
 #include "core/math.h"
+#include "render/compile/expanded_lights.h"
+#include "render/materials/material_table.h"
 #include "scene/affine.h"
 #include "scene/geometry/arena_geometry.h"
 
@@ -218,6 +220,7 @@ void GeometryPool::build(const std::vector<SceneObject>& objects, const Attribut
     has_normals_ = std::ranges::any_of(smooth, [](const auto& shape) { return shape.second; });
     reserve(objects);
     for (const SceneObject& object : objects) {
+        object_first_part_.push_back(parts_.size());
         std::vector<Span> spans;
         if (object.instanced) largest_instanced_mesh_ = std::max(largest_instanced_mesh_, object.triangle_count());
         for (const MeshPart& part : object.parts) spans.push_back(find_or_append(object, part.geometry, shared));
@@ -255,6 +258,36 @@ void GeometryPool::move(const std::vector<SceneObject>& before, const std::vecto
         if (object.instanced) instance += object.copies();
         part += placed_parts(object);
     }
+}
+
+void GeometryPool::move_flat(size_t i, const SceneObject& object) {
+    for (size_t k = 0; k < object.parts.size(); ++k)
+        place(object_first_part_[i] + k, *object.parts[k].geometry, placed(object, 0, origin_));
+}
+
+void GeometryPool::set_materials(const MaterialTable& materials) {
+    if (materials.ids == indexed_materials_) return;
+    indexed_materials_ = materials.ids;
+    for (size_t part = 0; part < parts_.size(); ++part) parts_[part].material = materials.index_of(part_materials_[part]);
+}
+
+void GeometryPool::set_first_lights(const std::vector<FirstLight>& lights) {
+    for (const FirstLight& before : first_lights_) parts_[before.part].first_light = -1;
+    for (const FirstLight& now : lights) parts_[now.part].first_light = now.light;
+    first_lights_ = lights;
+}
+
+std::vector<size_t> GeometryPool::parts_of(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& materials) const {
+    std::vector<size_t> parts;
+    const auto is_one = [&](const MeshPart& part) { return std::ranges::binary_search(materials, part.material); };
+    for (size_t i = 0; i < objects.size(); ++i) {
+        const SceneObject& object = objects[i];
+        if (std::ranges::none_of(object.parts, is_one)) continue;
+        for (size_t copy = 0; copy < object.copies(); ++copy)
+            for (size_t k = 0; k < object.parts.size(); ++k)
+                if (is_one(object.parts[k])) parts.push_back(object_first_part_[i] + copy * object.parts.size() + k);
+    }
+    return parts;
 }
 
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
@@ -313,34 +346,38 @@ void GeometryPool::fill(SceneTables& t) const {
     t.colors = pointer(colors_, Attribute::colors, needs_.colors);
 }
 
-AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
+AccelTriangles GeometryPool::accel_triangles(const GeometryPtr& geometry, size_t part, uint32_t mask) const {
+    const PartRecord& record = parts_[part];
+    return {geometry->serial,
+            nullptr,
+            all_positions_ + record.first_vertex,
+            size_t(part_vertices_[part]),
+            all_indices_ + record.first_index,
+            size_t(part_triangles_[part]),
+            int32_t(part),
+            false,
+            mask};
+}
+
+AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& alpha,
                                      const std::vector<uint32_t>& masks) const {
     AccelScene scene;
     // Instanced parts with equal geometry and material have equal opacity:
     // the first one represents all, so that they share one bottom-level BVH.
     std::map<std::pair<uint64_t, Id<Material>>, int32_t> first_alike;
-    size_t part = 0, instance = 0;
+    size_t instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
+        if (!object.instanced && is_expanded(object.node)) scene.first_lamp = std::min(scene.first_lamp, scene.flat.size());
         std::vector<AccelTriangles> triangles;
         for (const MeshPart& p : object.parts) {
-            const PartRecord& record = parts_[part];
-            const int32_t opaque_as =
-                object.instanced ? first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second : int32_t(part);
-            AccelTriangles t{p.geometry->serial,
-                             nullptr,
-                             all_positions_ + record.first_vertex,
-                             size_t(part_vertices_[part]),
-                             all_indices_ + record.first_index,
-                             size_t(part_triangles_[part]),
-                             opaque_as,
-                             alpha[part],
-                             object.instanced ? seen_by_all : masks[i]};
+            const size_t part = object_first_part_[i] + triangles.size();
+            AccelTriangles t = accel_triangles(p.geometry, part, object.instanced ? seen_by_all : masks[i]);
+            if (object.instanced) t.part = first_alike.try_emplace({p.geometry->serial, p.material}, int32_t(part)).first->second;
+            t.alpha = std::ranges::binary_search(alpha, p.material);
             if (object.instanced && is_padded(*p.geometry)) share(p.geometry, t);
             triangles.push_back(std::move(t));
-            ++part;
         }
-        part += placed_parts(object) - object.parts.size(); // those of its other instances
         if (object.instanced) {
             scene.instances.push_back({std::move(triangles), std::span(instances_).subspan(instance, object.copies()), masks[i]});
             instance += object.copies();
@@ -350,10 +387,19 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
     return scene;
 }
 
+std::vector<AccelTriangles> GeometryPool::accel_lamps(const std::vector<SceneObject>& objects, const std::vector<uint32_t>& masks) const {
+    std::vector<AccelTriangles> lamps;
+    for (size_t i = 0; i < objects.size() && !objects[i].instanced; ++i) // flat objects are first
+        for (size_t k = 0; is_expanded(objects[i].node) && k < objects[i].parts.size(); ++k)
+            lamps.push_back(accel_triangles(objects[i].parts[k].geometry, object_first_part_[i] + k, masks[i]));
+    return lamps;
+}
+
 size_t GeometryPool::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(part_triangles_) + bytes(part_vertices_) + bytes(instances_) +
-                 bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) + bytes(tangents_) + bytes(colors_);
+    size_t sum = bytes(parts_) + bytes(part_materials_) + bytes(object_first_part_) + bytes(part_triangles_) + bytes(part_vertices_) +
+                 bytes(instances_) + bytes(instance_first_part_) + bytes(indices_) + bytes(positions_) + bytes(normals_) +
+                 bytes(tangents_) + bytes(colors_);
     for (const GeometryArray<Vec2>& uv : uv_) sum += bytes(uv);
     return sum;
 }

@@ -22,19 +22,36 @@ struct AttributeNeeds {
     bool operator==(const AttributeNeeds&) const = default;
 };
 
+struct MaterialTable;
+
+// The light record of the first triangle of a part.
+struct FirstLight {
+    size_t part = 0;
+    int32_t light = -1;
+};
+
+// The only writer of part records.
 class GeometryPool {
 public:
     // Lays out the parts of `objects`: flat ones in world space, instanced ones in object space and once for all instances. World
-    // space is relative to `origin` (render/extent.h). Fills every field of the part records except `material` and `first_light`.
+    // space is relative to `origin` (scene_origin.h). Parts have the default material and no lights until these are set.
     void build(const std::vector<SceneObject>& objects, const AttributeNeeds& needs, const Vec3d& origin);
     // Rewrites moved objects: same meshes, other transforms or another origin. `before` as passed last time.
     void move(const std::vector<SceneObject>& before, const std::vector<SceneObject>& objects, const Vec3d& origin);
 
+    // Rewrites one flat object, objects[i] of build(), at another transform.
+    void move_flat(size_t i, const SceneObject& object);
+    // Sets the material indices of all parts; does nothing if the table has the same ids as last time.
+    void set_materials(const MaterialTable& materials);
+    // Sets the parts that have light records; all others have none.
+    void set_first_lights(const std::vector<FirstLight>& lights);
+
     // One record per part and instance, in the order of objects, their instances and the parts of each.
-    std::vector<PartRecord>& parts() { return parts_; }
     const std::vector<PartRecord>& parts() const { return parts_; }
     // The material id of each part.
     const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
+    // Indices of the parts that have one of these materials (in id order), ascending. `objects` as passed to build().
+    std::vector<size_t> parts_of(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& materials) const;
     int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
     // Number of triangles without area in the scene.
     int64_t degenerate_count() const;
@@ -42,9 +59,12 @@ public:
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
 
     void fill(SceneTables& tables) const;
-    // Input for the BVH builder, valid until the next change; alpha[part] requests opacity tests, masks[object] is the ray mask.
-    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<bool>& alpha,
+    // Input for the BVH builder, valid until the next change; hits on the materials `alpha` (in id order) get opacity tests,
+    // masks[object] is the ray mask.
+    AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& alpha,
                            const std::vector<uint32_t>& masks) const;
+    // The part of it that are flat meshes of area lights.
+    std::vector<AccelTriangles> accel_lamps(const std::vector<SceneObject>& objects, const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
     // True if some part has smooth vertex normals.
     bool has_normals() const { return has_normals_; }
@@ -67,11 +87,15 @@ private:
     // Span of a mesh, here or in the document; missing ones are appended. `shared`: known instanced meshes by serial.
     Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);
     void place(size_t part, const Geometry& geometry, const Affined& world_from_object);
+    AccelTriangles accel_triangles(const GeometryPtr& geometry, size_t part, uint32_t mask) const;
 
     std::vector<PartRecord> parts_;
     std::vector<Id<Material>> part_materials_;
     std::vector<int64_t> part_triangles_;
     std::vector<int64_t> part_vertices_;
+    std::vector<size_t> object_first_part_;
+    std::vector<Id<Material>> indexed_materials_; // those of the material table that the parts' indices are for
+    std::vector<FirstLight> first_lights_;
     std::vector<InstanceRecord> instances_;
     std::vector<int32_t> instance_first_part_;
     std::vector<GeometryPtr> read_in_place_;

@@ -10,6 +10,7 @@
 #include "render/compile/object_list.h"
 #include "render/compile/scene_origin.h"
 #include "render/compile/update_plan.h"
+#include "render/compile/used_materials.h"
 #include "render/film/film_size.h"
 #include "render/kernels/kernel.h"
 #include "render/light_mix/light_groups.h"
@@ -17,8 +18,10 @@
 #include "render/lights/environment_table.h"
 #include "render/lights/light_links.h"
 #include "render/lights/light_table.h"
+#include "render/lights/mesh_lights.h"
 #include "render/materials/material_table.h"
 
+#include <map>
 #include <vector>
 
 namespace blush {
@@ -56,30 +59,68 @@ public:
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
-    AccelScene accel_scene(const Scene& expanded) const;
+    std::vector<SceneObject> list_anew(const Scene& scene);
+    bool move_panels(const Scene& scene, const std::vector<Id<Node>>& moved);
+    void update_used_materials(const Scene& scene, const UpdatePlan& plan);
+    void update_vertices(const UpdatePlan& plan, const std::vector<SceneObject>& before);
+    void update_masks(const Scene& scene);
+    void update_sphere_masks(const Scene& scene);
+    void update_accel(const Workers& workers);
+    std::vector<AccelSphere> accel_spheres() const;
+    void update_mesh_lights(const Scene& scene, bool aim_changed);
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
-    void update_groups(const LightGroups& groups);
+    void update_groups(const LightGroups* groups);
     void update_caustic_casters(const Scene& scene, const RenderSettings& settings);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
+    // What the current update has changed so far.
+    struct Changed {
+        bool objects = false;  // listed anew, or their vertices laid out anew
+        bool panels = false;   // meshes of area lights moved, or their masks changed
+        bool spheres = false;  // sphere lights
+        bool origin = false;   // of all positions
+        bool emission = false; // materials of emissive meshes
+        bool emitters = false; // which materials emit
+        bool casters = false;  // which materials cast caustics
+        bool alpha = false;    // which materials are not opaque
+        bool masks = false;    // ray masks of objects other than flat meshes of area lights
+    };
+    // Members of light groups (light_groups.h).
+    struct GroupsOfIds {
+        std::map<Id<Node>, int> light_nodes, surface_nodes;
+        std::map<Id<Material>, int> surface_materials;
+        bool operator==(const GroupsOfIds&) const = default;
+    };
+
+    Changed changed_;
     MaterialTable materials_;
     std::vector<SceneObject> objects_;
     BakedTransforms baked_;
-    std::vector<Diagnostic> left_out_; // objects, and instances of them
+    std::vector<Diagnostic> left_out_;  // objects, and instances of them
+    std::vector<Id<Light>> light_ids_;  // of the scene
+    std::vector<Id<Node>> light_nodes_; // with lights
+    std::vector<size_t> panels_;        // indices of objects that are meshes of area lights
     std::vector<SphereLight> spheres_;
+    UsedMaterials used_;
+    bool has_colors_ = false, has_catchers_ = false; // some object
     AttributeNeeds needs_;
     ExtentCache extents_;
     Extent extent_;
     GeometryPool geometry_;
-    std::vector<bool> alpha_; // by part
     CasterSets casters_;
-    std::vector<uint32_t> masks_;   // by object
+    std::vector<uint32_t> masks_; // by object
+    std::vector<uint32_t> sphere_masks_;
     std::vector<uint8_t> catchers_; // by part; empty: none
     LightLinks links_;
+    std::vector<size_t> emissive_parts_;
+    std::vector<float> panel_spreads_; // of panels_, as mesh_lights_ has them
+    MeshLights mesh_lights_;
     LightTable lights_;
+    GroupsOfIds grouped_;                                 // as group_of_part_ has them
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix
     EnvironmentTable environment_;
     CausticCasterTable caustic_casters_;
+    bool has_casters_ = false; // as `wanted` of caustic_casters_
     Accel accel_;
     SceneTables tables_;
     Features features_;

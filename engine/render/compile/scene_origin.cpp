@@ -1,6 +1,7 @@
 #include "render/compile/scene_origin.h"
 
 #include "core/math.h"
+#include "render/compile/expanded_lights.h"
 #include "scene/affine.h"
 
 #include <cmath>
@@ -27,20 +28,37 @@ Vec3d render_origin(const Bounds& bounds) {
     return {rounded(c.x), rounded(c.y), rounded(c.z)};
 }
 
+void ExtentCache::include(const SceneObject& object, Bounds& bounds) const {
+    for (const MeshPart& part : object.parts)
+        for (size_t copy = 0; copy < object.copies(); ++copy)
+            bounds.include(by_serial_.at(part.geometry->serial), object.world_from_copy(copy));
+}
+
 Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) {
     std::map<uint64_t, Bounds> used;
-    Extent extent;
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             const uint64_t serial = part.geometry->serial;
-            auto it = used.find(serial);
-            if (it == used.end()) {
-                const auto known = by_serial_.find(serial);
-                it = used.emplace(serial, known != by_serial_.end() ? known->second : bounds_of(*part.geometry)).first;
-            }
-            for (size_t copy = 0; copy < object.copies(); ++copy) extent.bounds.include(it->second, object.world_from_copy(copy));
+            if (used.contains(serial)) continue;
+            const auto known = by_serial_.find(serial);
+            used.emplace(serial, known != by_serial_.end() ? known->second : bounds_of(*part.geometry));
         }
     by_serial_ = std::move(used);
+    without_lamps_ = {};
+    lamps_.clear();
+    for (size_t i = 0; i < objects.size(); ++i) {
+        if (is_expanded(objects[i].node))
+            lamps_.push_back(i);
+        else
+            include(objects[i], without_lamps_);
+    }
+    return with_moved_lamps(objects, spheres);
+}
+
+Extent ExtentCache::with_moved_lamps(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const {
+    Extent extent;
+    extent.bounds = without_lamps_;
+    for (const size_t i : lamps_) include(objects[i], extent.bounds);
     for (const SphereLight& sphere : spheres)
         for (const double side : {-sphere.radius, sphere.radius}) extent.bounds.include(sphere.center + Vec3d{side, side, side});
     extent.origin = render_origin(extent.bounds);

@@ -28,9 +28,15 @@ Vec3d render_origin(const Bounds& bounds);
 class ExtentCache {
 public:
     Extent extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres);
+    // The same if only meshes of area lights and spheres moved since the last extent_of(): reads no other object.
+    Extent with_moved_lamps(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const;
 
 private:
+    void include(const SceneObject& object, Bounds& bounds) const;
+
     std::map<uint64_t, Bounds> by_serial_; // object space
+    Bounds without_lamps_;                 // world space
+    std::vector<size_t> lamps_;            // indices of objects that are meshes of area lights
 };
 
 } // namespace blush

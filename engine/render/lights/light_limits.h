@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace blush {
 
@@ -16,7 +17,7 @@ constexpr int64_t max_mesh_lights = int64_t(1) << 20;
 // bytes: with many disks the number is reduced, down to six, so that all together stay below max_mesh_lights.
 constexpr int max_disk_corners = 96;
 inline constexpr std::array disk_corner_choices{max_disk_corners, 48, 24, 12, 6};
-// One of disk_corner_choices, for all disks of the scene.
-int disk_corners(const Scene& scene);
+// One of disk_corner_choices, for all disks of the scene. `nodes`: those with lights (expanded_lights.h).
+int disk_corners(const Scene& scene, const std::vector<Id<Node>>& nodes);
 
 } // namespace blush

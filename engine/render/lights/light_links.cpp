@@ -19,13 +19,29 @@ const Light* light_of(const Scene& expanded, const LightRecord& record, Id<Node>
 // The distinct sets, with one bit per member part.
 class LitSets {
 public:
-    LitSets(const Scene& scene, const GeometryPool& geometry)
-        : scene_(scene), geometry_(geometry), words_(int32_t((geometry.parts().size() + 31) / 32)) {}
+    LitSets(const Scene& scene, const GeometryPool& geometry, const LightLinks& last)
+        : scene_(scene), geometry_(geometry), last_(last), words_(int32_t((geometry.parts().size() + 31) / 32)) {}
 
     int32_t index_of(const ObjectSet& set) {
         const auto it = std::ranges::find(sets_, set);
         if (it != sets_.end()) return int32_t(it - sets_.begin());
         sets_.push_back(set);
+        if (const auto known = std::ranges::find(last_.sets, set); known != last_.sets.end()) {
+            const auto words = last_.lit_parts.begin() + (known - last_.sets.begin()) * words_;
+            bits_.insert(bits_.end(), words, words + words_);
+        } else
+            add_bits(set);
+        return int32_t(sets_.size()) - 1;
+    }
+    // Moves the sets and their bits to `links`.
+    void give(LightLinks& links) && {
+        links.words = words_;
+        links.sets = std::move(sets_);
+        links.lit_parts = std::move(bits_);
+    }
+
+private:
+    void add_bits(const ObjectSet& set) {
         const size_t first = bits_.size();
         bits_.resize(first + size_t(words_));
         const std::vector<PartRecord>& parts = geometry_.parts();
@@ -35,14 +51,11 @@ public:
                 in_set = contains(set, scene_, Id<Node>{uint32_t(parts[part].object)});
             if (in_set) bits_[first + part / 32] |= 1u << part % 32;
         }
-        return int32_t(sets_.size()) - 1;
     }
-    std::vector<uint32_t> bits() && { return std::move(bits_); }
-    int32_t words() const { return words_; }
 
-private:
     const Scene& scene_;
     const GeometryPool& geometry_;
+    const LightLinks& last_;
     int32_t words_;
     std::vector<ObjectSet> sets_;
     std::vector<uint32_t> bits_;
@@ -87,10 +100,12 @@ bool has_links(const Scene& scene) {
     });
 }
 
-CasterSets::CasterSets(const Scene& scene) {
-    for (const auto& [id, node] : scene.nodes) {
-        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || !leaves_out(light->shadow_casters, scene)) continue;
+CasterSets::CasterSets(const Scene& scene) : CasterSets(scene, nodes_with_lights(scene)) {}
+
+CasterSets::CasterSets(const Scene& scene, const std::vector<Id<Node>>& nodes) {
+    for (const Id<Node> id : nodes) {
+        const Light* light = scene.lights.find(scene.nodes.find(id)->light);
+        if (!light->enabled || !leaves_out(light->shadow_casters, scene)) continue;
         if (std::ranges::find(sets_, light->shadow_casters) != sets_.end()) continue;
         if (sets_.size() < size_t(max_caster_sets))
             sets_.push_back(light->shadow_casters);
@@ -112,9 +127,11 @@ uint32_t CasterSets::ray_mask(const Scene& scene, const Light& light) const {
     return it == sets_.end() ? other_ray_mask : 1u << (first_caster_bit + (it - sets_.begin()));
 }
 
-LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters) {
+LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters,
+                             const LightLinks& last) {
+    if (!has_links(expanded)) return {};
     LightLinks links;
-    LitSets lit(expanded, geometry);
+    LitSets lit(expanded, geometry, last);
     bool any = false;
     for (size_t i = 0; i < lights.records.size(); ++i) {
         const Light* light = light_of(expanded, lights.records[i], i < lights.nodes.size() ? lights.nodes[i] : Id<Node>{});
@@ -125,8 +142,7 @@ LightLinks build_light_links(const Scene& expanded, const LightTable& lights, co
         links.shadow_masks.push_back(mask);
     }
     if (!any) return {};
-    links.words = lit.words();
-    links.lit_parts = std::move(lit).bits();
+    std::move(lit).give(links);
     if (links.lit_parts.empty()) links.lit_parts.push_back(0); // kernels read before they apply masks
     return links;
 }

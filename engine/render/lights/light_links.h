@@ -32,6 +32,9 @@ class CasterSets {
 public:
     CasterSets() = default;
     explicit CasterSets(const Scene& scene);
+    // `nodes`: those with lights (expanded_lights.h).
+    CasterSets(const Scene& scene, const std::vector<Id<Node>>& nodes);
+    bool operator==(const CasterSets&) const = default;
 
     // The mask bits of an object for shadow rays: the sets that contain it.
     uint32_t mask_of(const Scene& scene, Id<Node> object) const;
@@ -51,11 +54,13 @@ struct LightLinks {
     std::vector<uint32_t> lit_parts;    // for each set, one bit per part
     std::vector<uint32_t> shadow_masks; // of rays towards the light
     int32_t words = 0;                  // 32-bit words per set
+    std::vector<ObjectSet> sets;        // those of lit_parts
     bool empty() const { return lit_sets.empty(); }
 
     LinkTables tables() const { return {lit_sets.data(), lit_parts.data(), shadow_masks.data(), words}; }
 };
-// Empty if no light is linked.
-LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters);
+// Empty if no light is linked. `last`: links of the same parts, whose sets are copied instead of asking every part.
+LightLinks build_light_links(const Scene& expanded, const LightTable& lights, const GeometryPool& geometry, const CasterSets& casters,
+                             const LightLinks& last = {});
 
 } // namespace blush

@@ -3,7 +3,6 @@
 #include "core/distribution.h"
 #include "core/math.h"
 #include "render/compile/expanded_lights.h"
-#include "render/integrator/light_sampling.h"
 #include "render/lights/light_limits.h"
 #include "scene/affine.h"
 #include "scene/lights/light_units.h"
@@ -12,14 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
 namespace blush {
 namespace {
-
-double luminance_of(const Vec3& c) { return double(luminance(c)); }
 
 struct TableBuilder {
     NeeLights aim = NeeLights::all_lights;
@@ -30,41 +26,24 @@ struct TableBuilder {
     void add(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
         table.records.push_back(record);
         table.nodes.push_back(node);
-        table.powers.push_back(std::isfinite(power) && power > 0 ? power : 0);
+        table.powers.push_back(usable_power(power));
         bounds.push_back(where);
     }
     // Adds a light that rays can also hit.
     void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
         add(record, node, aim == NeeLights::all_lights ? power : 0, where);
     }
+    void add_all(const MeshLights& meshes) {
+        table.records = meshes.records;
+        table.nodes = meshes.nodes;
+        table.powers = meshes.powers;
+        table.profiles = meshes.profiles;
+        table.emissive_triangles = meshes.emissive_triangles;
+        table.unsampled_triangles = meshes.unsampled_triangles;
+        bounds = meshes.bounds;
+        luminaires = meshes.luminaires;
+    }
 };
-
-// Mean luminance of a textured emissive triangle over a 4 x 4 grid; never
-// 0 where the material may emit, because the grid may miss emission.
-double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec3& factor) {
-    double sum = 0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) {
-            const Vec2 b = sample_triangle((float(i) + 0.5f) / 4, (float(j) + 0.5f) / 4);
-            sum += luminance_of(varying_emission<all_features, float>(tables, int32_t(light), b, true));
-        }
-    return std::max(sum / 16, 0.01 * luminance_of(factor));
-}
-
-// Radians added to cone angles: single-precision cosines cannot represent narrower cones.
-constexpr double angle_margin = 0.01;
-
-LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const Light* panel) {
-    LightBounds b;
-    const Vec3d v[3] = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
-    b.low = {std::min({v[0].x, v[1].x, v[2].x}), std::min({v[0].y, v[1].y, v[2].y}), std::min({v[0].z, v[1].z, v[2].z})};
-    b.high = {std::max({v[0].x, v[1].x, v[2].x}), std::max({v[0].y, v[1].y, v[2].y}), std::max({v[0].z, v[1].z, v[2].z})};
-    const Vec3d normal = cross(to_double(light.edge1), to_double(light.edge2));
-    b.axis = dot(normal, normal) > 0 ? normalize(normal) : Vec3d{0, 0, 1};
-    b.theta_e = panel ? std::min(0.5 * double(panel->spread_radians) + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
-    b.two_sided = light.flags & light_two_sided;
-    return b;
-}
 
 // Bounds of an omnidirectional light at `center`, or of a spot's cone.
 LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
@@ -79,101 +58,6 @@ LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, c
     b.theta_e =
         is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
     return b;
-}
-
-// The profile of the panel that was expanded to this part; -1 for other meshes.
-int32_t panel_profile(TableBuilder& b, const Scene& scene, WorldTransforms& placements, Id<Node> body) {
-    const Light* light = light_of_expanded_mesh(scene, body);
-    return light ? b.table.profiles.add(*light, placements(body).world_from_node).profile : -1;
-}
-
-bool is_emissive(const MaterialRecord& material) { return material.flags & material_emissive && !(material.flags & material_unlit); }
-
-// For each part, whether its emissive triangles are sampled by NEE. Area lights come first, then objects with the fewest
-// triangles, so that a huge number of instances does not displace all other emitters.
-std::vector<bool> is_sampled(const Scene& scene, const MaterialTable& materials, const GeometryPool& geometry) {
-    const std::vector<PartRecord>& parts = geometry.parts();
-    std::vector<bool> aimed(parts.size(), true);
-    std::map<int32_t, int64_t> triangles; // by object
-    std::vector<size_t> glowing;
-    int64_t total = 0;
-    for (size_t part = 0; part < parts.size(); ++part) {
-        if (!is_emissive(materials.records[size_t(parts[part].material)]) ||
-            light_of_expanded_mesh(scene, Id<Node>{uint32_t(parts[part].object)}))
-            continue;
-        glowing.push_back(part);
-        triangles[parts[part].object] += geometry.triangle_count(part);
-        total += geometry.triangle_count(part);
-    }
-    if (total <= max_mesh_lights) return aimed;
-    std::ranges::stable_sort(glowing, {}, [&](size_t part) { return std::pair(triangles[parts[part].object], parts[part].object); });
-    int64_t left = max_mesh_lights;
-    for (const size_t part : glowing) {
-        left -= geometry.triangle_count(part);
-        aimed[part] = left >= 0;
-    }
-    return aimed;
-}
-
-void add_triangles(TableBuilder& b, const Scene& scene, const MaterialTable& materials, GeometryPool& geometry,
-                   const SceneTables& scene_tables) {
-    WorldTransforms placements(scene);
-    SceneTables tables = scene_tables;
-    const std::vector<bool> aimed = is_sampled(scene, materials, geometry);
-    for (size_t part = 0; part < geometry.parts().size(); ++part) {
-        PartRecord& record = geometry.parts()[part];
-        const MaterialRecord& material = materials.records[size_t(record.material)];
-        record.first_light = -1;
-        if (!is_emissive(material)) continue;
-        const Light* panel = light_of_expanded_mesh(scene, Id<Node>{uint32_t(record.object)});
-        b.luminaires += panel ? 1 : geometry.triangle_count(part);
-        const int32_t profile = panel_profile(b, scene, placements, Id<Node>{uint32_t(record.object)});
-        // A ray that hits the light reads its profile.
-        if (b.aim == NeeLights::zero_size_lights && profile < 0) {
-            b.table.emissive_triangles += geometry.triangle_count(part);
-            continue;
-        }
-        if (!aimed[part]) {
-            b.table.emissive_triangles += geometry.triangle_count(part);
-            b.table.unsampled_triangles += geometry.triangle_count(part);
-            continue;
-        }
-        record.first_light = int32_t(b.table.records.size());
-        const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
-        const bool varying =
-            material.emissive_texture >= 0 || (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
-        // Constant alpha dims the whole light.
-        const float opacity = varying ? 1.f : opacity_at<all_features, float>(scene_tables.materials, record.material, {}, 1.f, true);
-        // The stored vertices have the mesh's winding; under a mirroring transform the outside is the other side of the plane.
-        const bool mirrored = record.transform >= 0 ? determinant(scene_tables.instances[record.transform].world_from_object) < 0
-                                                    : (record.flags & part_mirrored) != 0;
-        for (int64_t t = 0; t < geometry.triangle_count(part); ++t) {
-            Vec3 p[3];
-            geometry.corners(part, t, p);
-            LightRecord light{};
-            light.kind = int32_t(LightKind::triangle);
-            light.flags = (two_sided ? light_two_sided : 0) | (varying ? light_varying : 0) | (mirrored ? light_mirrored : 0);
-            light.part = int32_t(part);
-            light.triangle = int32_t(t);
-            light.profile = profile;
-            light.position = p[0];
-            light.edge1 = p[1] - p[0];
-            light.edge2 = p[2] - p[0];
-            if (mirrored) std::swap(light.edge1, light.edge2);
-            light.emission = material.emission * opacity;
-            const double area = 0.5 * double(length(cross(light.edge1, light.edge2)));
-            light.inverse_area = area > 0 && std::isfinite(1 / area) ? float(1 / area) : 0.f;
-            double nits = luminance_of(light.emission);
-            if (varying) {
-                tables.lights.lights = &light;
-                nits = mean_varying_luminance(tables, 0, material.emission);
-            }
-            const double power = std::numbers::pi * area * nits * (two_sided ? 2 : 1);
-            const bool is_sampled = b.aim == NeeLights::all_lights && light.inverse_area > 0;
-            b.add(light, Id<Node>{uint32_t(record.object)}, is_sampled ? power : 0, triangle_bounds(p, light, panel));
-            ++b.table.emissive_triangles;
-        }
-    }
 }
 
 void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLight>& spheres, const Vec3d& origin) {
@@ -218,11 +102,11 @@ void add_sun(TableBuilder& b, const LightRecord& record, Id<Node> node, double l
     record.cone_height > 0 ? b.add_findable(record, node, power) : b.add(record, node, power);
 }
 
-void add_punctual(TableBuilder& b, const Scene& scene, double scene_radius, const Vec3d& origin) {
+void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node>>& nodes, double scene_radius, const Vec3d& origin) {
     WorldTransforms placements(scene);
-    for (const auto& [id, node] : scene.nodes) {
-        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
+    for (const Id<Node> id : nodes) {
+        const Light* light = scene.lights.find(scene.nodes.find(id)->light);
+        if (!light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
         const Affined& world = placements(id).world_from_node;
         const Vec3 emission = light_emission(*light);
         if (light->kind == Light::Kind::sun) {
@@ -298,15 +182,15 @@ bool add_tree(TableBuilder& b, const std::vector<double>& powers) {
 
 } // namespace
 
-LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
+LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
                              const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim) {
     TableBuilder b;
     b.aim = aim;
-    if (const int corners = disk_corners(scene); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
-    add_triangles(b, scene, materials, geometry, tables);
+    if (const int corners = disk_corners(scene, nodes); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
+    b.add_all(meshes);
     add_spheres(b, scene, spheres, extent.origin);
     const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
-    add_punctual(b, scene, radius, extent.origin);
+    add_punctual(b, scene, nodes, radius, extent.origin);
     if (const SkySun sun = sun_of(scene.environment); luminance_of(sun.lux) > 0) {
         LightRecord record = sun_record(sun.direction, sun_angle_radians, sun.lux);
         if (!scene.environment.visible_to_camera) record.flags |= light_hidden;

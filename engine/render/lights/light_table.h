@@ -1,12 +1,11 @@
 // Table of all emitters with their selection probabilities.
 #pragma once
 
-#include "render/compile/geometry_pool.h"
 #include "render/compile/scene_origin.h"
 #include "render/lights/light_profiles.h"
 #include "render/lights/light_tree.h"
+#include "render/lights/mesh_lights.h"
 #include "render/lights/sphere_lights.h"
-#include "render/materials/material_table.h"
 #include "scene/scene.h"
 #include "shading/light.h"
 
@@ -35,21 +34,20 @@ struct LightTable {
     void fill(LightTables& tables) const;
 };
 
-// Records: emissive triangles part by part (part records get their first_light), then spheres in order, then other lights in node
+// Records: emissive triangles part by part, then spheres in order, then other lights in node
 // order, then the sun of a sky, then the environment. Powers are luminous fluxes: pi A L for a triangle, 4 pi^2 r^2 L for a
 // sphere, 4 pi I for a point, times the factor of its profile; for suns and sky the flux through the sphere of radius R around
 // the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are relative to the extent's
 // origin. One sample in 64 is distributed uniformly over all lights, so that a weak light is found where it is the only one. If
 // there are many lights at finite distance, a light tree is built, which is selected by their total power.
 //
-// Aim::zero_size_lights: NEE samples only lights of zero size, which rays cannot hit. Other lights have records only if hits read them:
-// spheres, suns, and triangles with a profile.
-enum class NeeLights { all_lights, zero_size_lights };
+// NeeLights::zero_size_lights: other lights have records only if hits read them: spheres, suns, and triangles with a profile.
 struct SkyLight {
     bool emits_light = false;
     Vec3 mean{0, 0, 0}; // radiance averaged over the sphere, nits
 };
-LightTable build_light_table(const Scene& scene, const MaterialTable& materials, GeometryPool& geometry, const SceneTables& tables,
+// `nodes`: those with lights (expanded_lights.h).
+LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
                              const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim);
 // Size in bytes of a table of `lights` records.
 int64_t light_table_bytes(int64_t lights);

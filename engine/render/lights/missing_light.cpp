@@ -18,12 +18,11 @@ bool has_size(const Light& light) {
     }
 }
 
-bool has_zero_size_light(const Scene& scene) {
+bool has_zero_size_light(const Scene& scene, const std::vector<Id<Node>>& nodes) {
     WorldTransforms placements(scene);
-    return std::ranges::any_of(scene.nodes, [&](const auto& entry) {
-        const auto& [id, node] = entry;
-        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        return light && light->enabled && light->intensity > 0 && !has_size(*light) && placements(id).visible;
+    return std::ranges::any_of(nodes, [&](Id<Node> id) {
+        const Light* light = scene.lights.find(scene.nodes.find(id)->light);
+        return light->enabled && light->intensity > 0 && !has_size(*light) && placements(id).visible;
     });
 }
 
@@ -31,16 +30,20 @@ bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < sm
 
 } // namespace
 
-std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& used) {
-    bool glass = false, mirror = false; // all smooth surfaces also reflect
+SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material>>& used) {
+    SmoothSurfaces surfaces;
     for (const Id<Material> id : used) {
         const Material* m = scene.materials.find(id);
         if (!m || !is_smooth(*m)) continue;
-        glass |= transmits(*m) && !is_thin(*m);
-        mirror = true;
+        surfaces.glass |= transmits(*m) && !is_thin(*m);
+        surfaces.mirror = true;
     }
-    if (!mirror || !has_zero_size_light(scene)) return {};
-    const char* by = glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
+    return surfaces;
+}
+
+std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces) {
+    if (!surfaces.mirror || !has_zero_size_light(scene, nodes)) return {};
+    const char* by = surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
     return std::string("some light cannot be found: that of point, spot and sun lights of zero size, ") + by +
            "; give these lights a radius or an angle, or the material some roughness";
 }

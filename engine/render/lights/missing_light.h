@@ -9,8 +9,15 @@
 
 namespace blush {
 
-// User message about the missing light and how to get it back; empty if all light can be found. `used`: the materials of all
-// rendered objects, each once or more. Panes that pass light straight through hide nothing (thin_transmission.h).
-std::string missing_light(const Scene& scene, const std::vector<Id<Material>>& used);
+// Smooth surfaces of rendered objects.
+struct SmoothSurfaces {
+    bool mirror = false; // all of them reflect
+    bool glass = false;  // some also transmit; not panes, which pass light straight through (thin_transmission.h)
+};
+// `used`: the materials of all rendered objects, each once or more.
+SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material>>& used);
+// User message about the missing light and how to get it back; empty if all light can be found. `nodes`: those with lights
+// (expanded_lights.h).
+std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces);
 
 } // namespace blush

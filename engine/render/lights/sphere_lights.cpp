@@ -20,12 +20,13 @@ bool is_sphere_light(const Light& light) {
     return false;
 }
 
-std::vector<SphereLight> list_sphere_lights(const Scene& scene) {
+std::vector<SphereLight> list_sphere_lights(const Scene& scene, const std::vector<Id<Node>>& nodes) {
     std::vector<SphereLight> spheres;
     WorldTransforms placements(scene);
-    for (const auto& [id, node] : scene.nodes) {
-        const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
-        if (!light || !is_sphere_light(*light) || !placements(id).visible) continue;
+    for (const Id<Node> id : nodes) {
+        const Node& node = *scene.nodes.find(id);
+        const Light* light = scene.lights.find(node.light);
+        if (!is_sphere_light(*light) || !placements(id).visible) continue;
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
         const Affined& world = placements(id).world_from_node;
         const double radius = double(light->radius) * std::cbrt(std::abs(determinant(world)));

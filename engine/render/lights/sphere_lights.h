@@ -4,7 +4,6 @@
 
 #include "scene/scene.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace blush {
@@ -19,8 +18,8 @@ struct SphereLight {
 };
 
 // Enabled and visible ones in node order; with a light mix also disabled ones, as black spheres. Lights without a radius or with
-// a non-finite position are omitted.
-std::vector<SphereLight> list_sphere_lights(const Scene& scene);
+// a non-finite position are omitted. `nodes`: those with lights (expanded_lights.h).
+std::vector<SphereLight> list_sphere_lights(const Scene& scene, const std::vector<Id<Node>>& nodes);
 // True for light types that are sphere lights.
 bool is_sphere_light(const Light& light);
 

@@ -1,5 +1,7 @@
 // Light that no strategy can find is reported, and the agreement of two halves that both miss it does not make the error known.
 #include "render/lights/missing_light.h"
+
+#include "render/compile/expanded_lights.h"
 #include "render/renderer.h"
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
@@ -31,7 +33,7 @@ std::string said(const Material& material, const Light& light) {
     room.put(lambert(0.5f));
     room.put(material);
     shine(room.scene, light, aimed({0, 3, 0}, {0, -1, 0}));
-    return missing_light(room.scene, room.used);
+    return missing_light(room.scene, nodes_with_lights(room.scene), smooth_surfaces(room.scene, room.used));
 }
 
 TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {

@@ -22,6 +22,7 @@ void PrintTo(const UpdatePlan& p, std::ostream* out) {
     say(p.camera, "camera ");
     say(p.clear_film, "clear_film ");
     say(p.features, "features ");
+    for (const Id<Node> id : p.moved_panels) *out << "panel " << id.value << " ";
     for (const Id<Material> id : p.materials) *out << "material " << id.value << " ";
 }
 
@@ -77,6 +78,12 @@ UpdatePlan moved() {
     p.transforms = true;
     return p;
 }
+// The mesh of an area light.
+UpdatePlan moved_panel(Id<Node> body) {
+    UpdatePlan p = lights();
+    p.moved_panels = {body};
+    return p;
+}
 UpdatePlan listed_anew() {
     UpdatePlan p = moved();
     p.objects = p.all_materials = true;
@@ -98,7 +105,11 @@ TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
     EXPECT_EQ(plan_if([](Changes& c) { c.integrator = c.nee_changed = true; }), environment_image()) << "all sampling tables";
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_parameters = true; }), environment());
     EXPECT_EQ(plan_if([](Changes& c) { c.environment_image = true; }), environment_image());
-    EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}; }), moved());
+    EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}; }), lights()) << "no mesh is below it";
+    EXPECT_EQ(plan_if([](Changes& c) { c.transforms = c.moved_meshes = {{1}}; }), moved());
+    const Id<Node> body{expanded_id_bit | 1};
+    EXPECT_EQ(plan_if([&](Changes& c) { c.transforms = {{1}}, c.moved_meshes = {body}; }), moved_panel(body));
+    EXPECT_EQ(plan_if([&](Changes& c) { c.transforms = {{1}}, c.moved_meshes = {{2}, body}; }), moved()) << "not the panel alone";
     EXPECT_EQ(plan_if([](Changes& c) { c.structure = {{1}}; }), listed_anew());
     EXPECT_EQ(plan_if([](Changes& c) { c.meshes = {{1}}; }), listed_anew());
     EXPECT_EQ(plan_if([](Changes& c) { c.materials = {{7}}; }), one_material(7));
@@ -110,7 +121,7 @@ TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
 TEST(UpdatePlan, TwoChangesNeedTheUnion) {
     UpdatePlan both = moved();
     both.camera = true;
-    EXPECT_EQ(plan_if([](Changes& c) { c.transforms = {{1}}, c.view = true; }), both);
+    EXPECT_EQ(plan_if([](Changes& c) { c.transforms = c.moved_meshes = {{1}}, c.view = true; }), both);
     EXPECT_EQ(plan_if([](Changes& c) { c.textures = {{1}}, c.materials = {{7}}; }), every_material()) << "all of them include the one";
 }
 
@@ -170,6 +181,7 @@ TEST_F(EditCost, SetNode) {
     EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.visible = false; }), listed_anew());
     EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.mesh = {}; }), listed_anew());
     EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.name = "Cup"; }), nothing());
+    EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), lights()) << "no object moves";
 }
 
 TEST_F(EditCost, SetMaterial) {
@@ -192,12 +204,14 @@ TEST_F(EditCost, SetLight) {
 TEST_F(EditCost, SetAreaLight) {
     set_lamp([](Light& l) { l.kind = Light::Kind::rectangle; });
     const uint32_t body = expanded_id_bit | sample.lamp.value;
+    const UpdatePlan panel_moves = moved_panel(Id<Node>{expanded_id_bit | sample.lamp_node.value});
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.intensity = 7; }), one_material(body));
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.color = {1, 0, 0}; }), one_material(body));
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.width = 3; }), moved());
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.width = 3; }), panel_moves);
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.enabled = false; }), listed_anew());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.name = "Panel"; }), nothing());
-    EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), moved());
+    EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), panel_moves);
+    EXPECT_EQ(cost_of_node(sample.root, [](Node& n) { n.local.translation.x += 1; }), moved()) << "objects are below it too";
 }
 
 TEST_F(EditCost, SetCamera) {

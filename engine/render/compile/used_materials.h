@@ -1,0 +1,30 @@
+// The materials of rendered objects, and what they need of tables: asked once per material instead of once per part.
+#pragma once
+
+#include "render/compile/object_list.h"
+#include "render/lights/missing_light.h"
+#include "render/materials/material_table.h"
+
+#include <set>
+#include <vector>
+
+namespace blush {
+
+struct UsedMaterials {
+    // All lists are in id order, each id once; 0 is glTF's default material.
+    std::vector<Id<Material>> ids;
+    std::vector<Id<Material>> alpha;    // not opaque
+    std::vector<Id<Material>> emissive; // their triangles are lights
+    std::vector<Id<Material>> casters;  // of caustics
+    std::set<int> uv_sets;              // that their textures read
+    bool tangents = false;
+    bool panes = false; // light may pass one straight through (thin_transmission.h)
+    Features features;
+    SmoothSurfaces smooth;
+};
+
+// The materials of the parts of `objects`.
+std::vector<Id<Material>> material_ids_of(const std::vector<SceneObject>& objects);
+UsedMaterials describe(std::vector<Id<Material>> ids, const Scene& scene, const MaterialTable& table);
+
+} // namespace blush

@@ -1,0 +1,45 @@
+// Lights of emissive meshes and of the meshes of area lights: one record per triangle.
+#pragma once
+
+#include "render/compile/geometry_pool.h"
+#include "render/lights/light_profiles.h"
+#include "render/lights/light_tree.h"
+#include "render/materials/material_table.h"
+#include "scene/scene.h"
+#include "shading/light.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+// zero_size_lights: NEE samples only lights of zero size, which rays cannot hit.
+enum class NeeLights { all_lights, zero_size_lights };
+
+// The first records of a light table (light_table.h). They depend on meshes, materials and area lights only, and are made anew only
+// when one of these changes.
+struct MeshLights {
+    std::vector<LightRecord> records;
+    std::vector<Id<Node>> nodes; // by record, like the next two
+    std::vector<double> powers;
+    std::vector<LightBounds> bounds;
+    std::vector<FirstLight> first_lights; // of the parts that have records
+    LightProfiles profiles;
+    int64_t emissive_triangles = 0;
+    int64_t unsampled_triangles = 0; // beyond max_mesh_lights (light_limits.h)
+    int64_t luminaires = 0;          // a panel counts once, not per triangle
+};
+
+// True for materials of emissive triangles that light the scene.
+bool is_emissive(const MaterialRecord& material);
+// `parts`: those with emissive materials, ascending. `tables` of the geometry and the materials; their lights are not read.
+MeshLights build_mesh_lights(const Scene& expanded, const GeometryPool& geometry, const SceneTables& tables,
+                             const std::vector<size_t>& parts, NeeLights aim);
+
+// The power if it is positive and finite, else 0.
+double usable_power(double power);
+double luminance_of(const Vec3& color);
+// Radians added to cone angles of bounds: single-precision cosines cannot represent narrower cones.
+constexpr double angle_margin = 0.01;
+
+} // namespace blush
