@@ -13,6 +13,7 @@
 #include "render/integrator/irradiance.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
+#include "render/tile_shape.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,24 +33,6 @@ bool hides_environment(const Environment& e) { return e.kind != Environment::Kin
 
 // True during the pilot, after its first half was stored.
 bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_samples / 2 && samples < SampleAllocation::pilot_samples; }
-
-// About two thousand paths per tile: enough to fill packets, few enough for the cache. Fewer for a small film, as during a drag,
-// because all workers wait for the last tile.
-struct TileShape {
-    int width, height, samples;
-};
-TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
-    if (count == 1 && pixels_per_worker < 16 * 2048) return {32, 16, 1};
-    if (count >= 8) return {16, 16, 8};
-    if (count >= 4) return {32, 16, 4};
-    if (count >= 2) return {32, 32, 2};
-    return {64, 32, 1};
-}
-
-// With path reuse a tile is a block, so that no group is cut.
-TileShape tile_shape(const ReuseGroups& groups) { return {groups.block_width, groups.block_height, 1}; }
-// Tiles of a sample plan have different numbers of samples, so groups must not cross tiles.
-ReuseGroups reuse_groups_of_plan(int size) { return reuse_groups(size, SampleAllocation::tile_size, SampleAllocation::tile_size); }
 
 } // namespace
 
