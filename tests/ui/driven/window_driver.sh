@@ -96,8 +96,15 @@ widget() { grep -F "  \"$1\": {" "$probe"; }
 field() { widget "$1" | sed "s/.*\"$2\":\\([0-9.]*\\).*/\\1/"; }
 has_widget() { widget "$1" >/dev/null; }
 says() { head -n 1 "$probe" | grep -qF "\"toast\":\"$1"; }
-converged() { state complete true && state up_to_date true; }
-edited_since() { [ "$(number 1 revision)" != "$1" ] && converged; }
+# The state is read once: between two reads the window may replace a picture that is complete but outdated by one that is up to date
+# but not complete.
+shows_converged() { [[ $1 == *'"complete":true'[,}]* && $1 == *'"up_to_date":true'[,}]* ]]; }
+converged() { shows_converged "$(head -n 1 "$probe")"; }
+edited_since() {
+    local line
+    line=$(head -n 1 "$probe")
+    [[ $line != *"\"revision\":$1"[,}]* ]] && shows_converged "$line"
+}
 
 # after_edit COMMAND...: runs a command that changes the picture, and waits until the picture has converged.
 after_edit() {
