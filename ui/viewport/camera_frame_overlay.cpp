@@ -9,26 +9,31 @@
 namespace blush {
 namespace {
 
-constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 150), edge = IM_COL32(150, 150, 150, 160), label_ground = IM_COL32(20, 20, 20, 170);
+constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 255 - brightness_outside_frame), edge = IM_COL32(150, 150, 150, 160),
+                label_ground = IM_COL32(20, 20, 20, 170);
 
 void draw_passepartout(ImDrawList& draw, const ImageRect& picture, const ImageRect& frame) {
     const float bottom = picture.y + picture.height, right = frame.x + frame.width;
     draw.AddRectFilled({picture.x, picture.y}, {frame.x, bottom}, passepartout);
     draw.AddRectFilled({right, picture.y}, {picture.x + picture.width, bottom}, passepartout);
-    draw.AddRect({frame.x, frame.y}, {right, frame.y + frame.height}, edge);
 }
 
 } // namespace
 
-void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen) {
+std::optional<ImageRect> passepartout_of(const PanelContext& c, const ImageRect& picture) {
+    if (c.ui.light_camera || !is_at_home(c.scene(), c.ui.home)) return {};
+    const ImageRect frame = frame_in_picture(c.ui.frame, picture);
+    return frame.width == picture.width ? std::nullopt : std::optional(frame);
+}
+
+void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen, bool dimmed) {
     if (c.ui.light_camera) return;
-    if (is_at_home(c.scene(), c.ui.home)) {
-        const ImageRect frame = frame_in_picture(c.ui.frame, picture);
-        if (frame.width == picture.width) return;
-        draw_passepartout(draw, picture, frame);
-        c.ui.probe.record("Camera frame", {frame.x, frame.y, frame.width, frame.height});
-        return;
+    if (const auto frame = passepartout_of(c, picture)) {
+        if (!dimmed) draw_passepartout(draw, picture, *frame);
+        draw.AddRect({frame->x, frame->y}, {frame->x + frame->width, frame->y + frame->height}, edge);
+        c.ui.probe.record("Camera frame", {frame->x, frame->y, frame->width, frame->height});
     }
+    if (is_at_home(c.scene(), c.ui.home)) return;
     const Node* camera = c.scene().nodes.find(c.ui.home.camera);
     const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press),
                                          camera && !camera->name.empty() ? camera->name : "camera");

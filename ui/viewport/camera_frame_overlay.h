@@ -9,9 +9,15 @@
 
 namespace blush {
 
-// In the camera view: passepartout and frame. In a free view, if there is a camera: the key that returns to it. `seen`: the
-// visible part of the picture.
-void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen);
+// The camera's frame, if the picture extends beyond it and is dimmed there; nullopt: nothing is dimmed.
+std::optional<ImageRect> passepartout_of(const PanelContext& c, const ImageRect& picture);
+// Brightness of the picture under the passepartout, of 255. A picture that is drawn this dark needs no blending over it, which would
+// take a tenth of a UI frame without a GPU.
+constexpr int brightness_outside_frame = 105;
+
+// In the camera view: passepartout, unless the picture is `dimmed` already, and frame. In a free view, if there is a camera: the
+// key that returns to it. `seen`: the visible part of the picture.
+void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen, bool dimmed);
 
 // The pixels of the camera's frame, if the picture extends beyond it and the view is the camera's; nullopt: the frame is the
 // whole picture.

@@ -280,17 +280,29 @@ void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
     }
 }
 
-void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const GLuint picture = display_.texture();
-    set_filter(picture, c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && !shows_preview_ ? GL_NEAREST : GL_LINEAR);
-    // opaque: blending would only cost time
-    draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+// The picture, darker to the left and right of the frame.
+void Viewport::draw_texture(const ImageRect& image, const std::optional<ImageRect>& frame) const {
     // clipped to the window: coordinates far outside lose precision
     const ImageRect seen = visible_part(image);
-    const ImVec2 high{seen.x + seen.width, seen.y + seen.height};
+    const float right = seen.x + seen.width, bottom = seen.y + seen.height;
     const auto uv = [&](const ImVec2& at) { return ImVec2{float(image.u(at.x)), float(image.v(at.y))}; };
-    draw.AddImage(texture_id(picture), {seen.x, seen.y}, high, uv({seen.x, seen.y}), uv(high));
+    const auto part = [&](float from, float to, ImU32 color) {
+        const ImVec2 low{std::max(from, seen.x), seen.y}, high{std::min(to, right), bottom};
+        if (low.x < high.x) ImGui::GetWindowDrawList()->AddImage(texture_id(display_.texture()), low, high, uv(low), uv(high), color);
+    };
+    constexpr int dim = brightness_outside_frame;
+    const float begin = frame ? frame->x : seen.x, end = frame ? frame->x + frame->width : right;
+    part(seen.x, begin, IM_COL32(dim, dim, dim, 255));
+    part(begin, end, IM_COL32_WHITE);
+    part(end, right, IM_COL32(dim, dim, dim, 255));
+}
+
+void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    set_filter(display_.texture(), c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && !shows_preview_ ? GL_NEAREST : GL_LINEAR);
+    // opaque: blending would only cost time
+    draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    draw_texture(image, frame);
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
     // The outline is drawn at the picture's size on the screen; skipped if that is far larger than the window.
     const Region region = window_region();
@@ -365,7 +377,10 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
         draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
         return image;
     }
-    draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected));
+    // A comparison and the surroundings of a region are drawn over the picture and dimmed with it.
+    const bool alone = c.ui.snapshots.compare.mode == Comparison::Mode::off && c.project().render.region == PictureRegion{};
+    draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected),
+                 alone ? passepartout_of(c, image) : std::nullopt);
     move_view_to_light(c);
     compare_.draw(c, image, visible_part(image), look_, pace);
     const View view = c.scene().view;
@@ -373,7 +388,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     const ImageRect seen = visible_part(image);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw_surroundings(c, image, pace);
-    draw_camera_frame(c, draw, image, seen);
+    draw_camera_frame(c, draw, image, seen, alone);
     bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
     const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
@@ -401,7 +416,7 @@ ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const c
         return image;
     }
     region_backdrop_.forget(); // they belong to the previous scene
-    draw_picture(c, image, false);
+    draw_picture(c, image, false, {});
     write_caption(visible_part(image), caption);
     return image;
 }

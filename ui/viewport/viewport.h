@@ -47,7 +47,8 @@ private:
     void upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
     void upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step);
-    void draw_picture(PanelContext& c, const ImageRect& image, bool outlined);
+    void draw_texture(const ImageRect& image, const std::optional<ImageRect>& frame) const;
+    void draw_picture(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame);
     void draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace);
     void draw_outline(const PanelContext& c, const ImageRect& image);
     void draw_caption(const PanelContext& c, const ImageRect& image) const;
