@@ -248,10 +248,12 @@ void Editor::panels() {
     window_->begin_frame();
     ui_.seconds_to_next_frame = max_sleep;
     ui_.probe.begin_frame();
+    ui_.wraps_cursor = false;
     mix_.follow(pictures_.frame, document_shown());
     PanelContext c = context();
     draw_regions(c);
     draw_on_top(c);
+    window_->wrap_cursor(ui_.wraps_cursor);
     handle_requests(c);
 }
 

@@ -15,6 +15,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double min_reach = 8; // minimum distance from the pivot for scaling, pixels
 constexpr double max_amount = 1e9;
 constexpr double degrees_step = 5, factor_step = 0.1;
+constexpr double trackball_degrees = 0.01 / degree; // per pixel, as in Blender
 constexpr std::array<Vec3d, 3> world_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr const char* axis_names[] = {"X", "Y", "Z"};
 
@@ -61,6 +62,7 @@ TransformTool::TransformTool(const TransformStart& start) : start_(start), lock_
 std::array<Vec3d, 3> TransformTool::axes() const { return lock_.local ? start_.local_axes : world_axes; }
 
 int TransformTool::amount_count() const {
+    if (trackball_) return 2;
     if (start_.mode != TransformMode::grab) return 1;
     return lock_.axis < 0 ? 3 : lock_.plane ? 2 : 1;
 }
@@ -74,6 +76,12 @@ ScreenPoint TransformTool::centre() const {
 }
 
 Vec3d TransformTool::turn_axis() const { return lock_.axis < 0 ? -start_.projection.forward() : axes()[size_t(lock_.axis)]; }
+
+// Axis times radians. What faces the viewer follows the mouse.
+Vec3d TransformTool::trackball_turn(double up_degrees, double right_degrees) const {
+    const Projection& p = start_.projection;
+    return (p.up() * right_degrees - p.right() * up_degrees) * degree;
+}
 
 double TransformTool::turn(ScreenPoint from, ScreenPoint to) const {
     const Vec3d axis = turn_axis();
@@ -126,6 +134,9 @@ double TransformTool::pointed_factor() const {
 std::array<double, 3> TransformTool::pointed_amounts() const {
     const double finer = fine_ ? 0.1 : 1;
     const auto snapped = [&](double value, double step) { return snap_ ? rounded_to(value, step * finer) : value; };
+    if (trackball_)
+        return {snapped((start_.mouse.y - at_.y) * trackball_degrees, degrees_step),
+                snapped((at_.x - start_.mouse.x) * trackball_degrees, degrees_step), 0};
     if (start_.mode == TransformMode::rotate) return {snapped(turned_ / degree, degrees_step), 0, 0};
     if (start_.mode == TransformMode::scale) return {snapped(pointed_factor(), factor_step), 0, 0};
     const Vec3d by = pointed_at();
@@ -149,6 +160,12 @@ Motion TransformTool::motion() const {
     const std::array<double, 3> amount = amounts();
     switch (start_.mode) {
     case TransformMode::rotate:
+        if (trackball_) {
+            const Vec3d turn = trackball_turn(amount[0], amount[1]);
+            m.radians = length(turn);
+            m.axis = m.radians > 0 ? turn / m.radians : turn_axis();
+            break;
+        }
         m.axis = turn_axis();
         m.radians = amount[0] * degree;
         break;
@@ -173,7 +190,7 @@ Motion TransformTool::motion() const {
 std::string TransformTool::text() const {
     static constexpr const char* verbs[] = {"Move", "Rotate", "Scale"};
     const TransformMode mode = start_.mode;
-    std::string text = verbs[size_t(mode)];
+    std::string text = trackball_ ? "Rotate (trackball)" : verbs[size_t(mode)];
     if (lock_.axis >= 0) {
         const char* axis = axis_names[lock_.axis];
         const auto [first, second] = others(lock_.axis);
@@ -185,7 +202,7 @@ std::string TransformTool::text() const {
     const std::array<double, 3> amount = amounts();
     for (int i = 0; i < amount_count(); ++i) {
         const int axis = amount_count() == 3 ? i : others(std::max(lock_.axis, 0))[size_t(i)];
-        const std::string name = amount_count() > 1 ? fmt::format(" {}", axis_names[axis]) : "";
+        const std::string name = trackball_ ? (i == 0 ? " up" : " right") : amount_count() > 1 ? fmt::format(" {}", axis_names[axis]) : "";
         const std::string& typed = typed_[size_t(i)];
         const bool here = is_typed() && size_t(i) == typing_;
         text += fmt::format("{} {}", name, here ? typed + "|" : fmt::format("{:.4g}", amount[size_t(i)] + 0.0));
@@ -196,6 +213,7 @@ std::string TransformTool::text() const {
 void TransformTool::switch_to(TransformMode mode) {
     start_.mode = mode;
     start_.ring = 0;
+    trackball_ = false;
     lock_ = {};
     typed_ = {};
     typing_ = 0;
@@ -248,10 +266,15 @@ TransformTool::Answer TransformTool::press(const KeyPress& press) {
     case 'x':
     case 'y':
     case 'z':
-        if (!press.ctrl) lock_to(c - 'x', press.shift);
+        if (!press.ctrl && !trackball_) lock_to(c - 'x', press.shift);
         return Answer::taken;
     case 'g': switch_to(TransformMode::grab); return Answer::taken;
-    case 'r': switch_to(TransformMode::rotate); return Answer::taken;
+    case 'r': {
+        const bool again = start_.mode == TransformMode::rotate && !trackball_;
+        switch_to(TransformMode::rotate);
+        trackball_ = again;
+        return Answer::taken;
+    }
     case 's': switch_to(TransformMode::scale); return Answer::taken;
     default: return type(c) ? Answer::taken : Answer::ignored;
     }

@@ -52,7 +52,8 @@ public:
 
     enum class Answer { ignored, taken, confirmed, cancelled };
     // Keys. X, Y, Z: this axis; again: local axis; again: free; with Shift all but this axis. Digits, minus, point and Backspace:
-    // the amount; Tab: the next of several amounts. G, R, S: another mode, restarted. Enter or Space confirms, Esc cancels.
+    // the amount; Tab: the next of several amounts. G, R, S: another mode, restarted; R while rotating: trackball, and back. Enter or Space
+    // confirms, Esc cancels.
     Answer press(const KeyPress& press);
     // `fine`: the movement since the last call counts a tenth. `snap`: amounts are rounded, to a tenth of the step if `fine`.
     void point_at(ScreenPoint mouse, bool fine, bool snap);
@@ -61,6 +62,8 @@ public:
     // "Move along X: 2 m", the typed amount with a cursor.
     std::string text() const;
     TransformMode mode() const { return start_.mode; }
+    // Rotation about the horizontal and vertical axis of the view at once, without constraints.
+    bool is_trackball() const { return trackball_; }
     const AxisLock& lock() const { return lock_; }
     const Vec3d& pivot() const { return start_.pivot; }
     // Unit axes of the world or the selection, depending on the constraint.
@@ -73,6 +76,7 @@ private:
     std::array<double, 3> pointed_amounts() const;
     Vec3d pointed_at() const;
     double pointed_factor() const;
+    Vec3d trackball_turn(double up_degrees, double right_degrees) const;
     double turn(ScreenPoint from, ScreenPoint to) const;
     Vec3d turn_axis() const;
     ScreenPoint centre() const;
@@ -87,6 +91,7 @@ private:
     AxisLock lock_;
     ScreenPoint mouse_, at_; // mouse position, and the virtual position after slow fine moves
     double turned_ = 0;      // radians about turn_axis(), including full turns
+    bool trackball_ = false;
     bool fine_ = false, snap_ = false;
     std::array<std::string, 3> typed_;
     size_t typing_ = 0;

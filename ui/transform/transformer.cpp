@@ -108,7 +108,7 @@ void Transformer::draw_axes(ImDrawList& draw, const Projection& projection, cons
         const Vec3d along = axes[size_t(i)] * reach;
         WorldPen{draw, projection, image, axis_tones[i]}.line(tool_->pivot() - along, tool_->pivot() + along);
     }
-    if (tool_->mode() == TransformMode::grab || by_drag_) return;
+    if (tool_->mode() == TransformMode::grab || tool_->is_trackball() || by_drag_) return;
     const ScreenPoint from = image.at(*seen);
     draw.AddLine({from.x, from.y}, ImGui::GetIO().MousePos, tone::dim_text, std::max(1.f, ImGui::GetFontSize() / 14));
 }
@@ -117,6 +117,7 @@ bool Transformer::update(PanelContext& c, ImDrawList& draw, const Projection& pr
     if (const auto wanted = std::exchange(c.ui.transform.wanted, {})) begin(c, *wanted, projection, image);
     if (!tool_) return false;
     cover_window();
+    c.ui.wraps_cursor = true;
     const std::optional<bool> confirmed = hear(c);
     if (confirmed != false) apply(c);
     if (!confirmed) {

@@ -49,6 +49,11 @@ void draw_bar(float fraction, float width) {
 
 } // namespace
 
+void wrap_cursor_if_dragged(UiState& ui) {
+    const bool typing = ImGui::TempInputIsActive(ImGui::GetItemID());
+    if (ImGui::IsItemActive() && !typing && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) ui.wraps_cursor = true;
+}
+
 Fields::Fields(UiState& ui, const char* scope) : ui_(ui), scope_(scope) { ImGui::PushID(scope); }
 Fields::~Fields() { ImGui::PopID(); }
 
@@ -121,6 +126,7 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
         const float speed = style.step > 0 ? style.step : std::max(std::abs(value) * 0.005f, 1e-4f);
         changed = ImGui::DragFloat(id, &edited, drag_speed(speed), style.min, style.max, format.c_str(), flags);
     }
+    wrap_cursor_if_dragged(ui_);
     if (changed && std::isfinite(edited)) value = std::clamp(edited, style.min, style.max);
     return changed && std::isfinite(edited);
 }
@@ -152,6 +158,7 @@ bool Fields::integer(const char* label, int64_t& value, int64_t min, int64_t max
     int64_t edited = value;
     bool changed =
         ImGui::DragScalar("##value", ImGuiDataType_S64, &edited, drag_speed(speed), &min, &max, "%lld", ImGuiSliderFlags_AlwaysClamp);
+    wrap_cursor_if_dragged(ui_);
     switch (value_action(ui_, std::string(scope_) + "/" + label, false, false)) {
     case ValueAction::copy: copy_text(ui_, std::to_string(value)); break;
     case ValueAction::reset: edited = reset; break;

@@ -74,6 +74,8 @@ private:
     Gesture gesture_ = no_gesture;
 };
 
+// Call after a number that is dragged: the drag goes on beyond the edges of the window.
+void wrap_cursor_if_dragged(UiState& ui);
 // A collapsible heading; draw its rows if it returns true.
 bool section(UiState& ui, const char* name, bool open_at_first = true);
 // A wrapped paragraph in the dim text colour.

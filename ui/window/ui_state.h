@@ -186,6 +186,7 @@ struct UiState {
     // Executed by the editor after the panels are drawn.
     std::vector<Command> commands;
     std::vector<FileRequest> files;
+    bool wraps_cursor = false;   // a drag without an end: the cursor that leaves the window comes back in at the opposite edge
     bool meter_exposure = false; // once, for the picture of the last edit, because the environment has changed
 
     // The special view that the viewport shows instead of the picture, if a panel requests one.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <epoxy/gl.h>
 // Included after epoxy, which replaces the system's OpenGL header.
 #include <GLFW/glfw3.h>
@@ -48,6 +49,16 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
     return best;
 }
 
+float usable_scale(float scale) { return std::clamp(scale, 0.5f, 4.f); }
+
+// A position within [0, size) that is away from both edges; unchanged if it is.
+double away_from_edges(double at, double size) {
+    constexpr double edge = 2;
+    if (size < 10 * edge || (at >= edge && at < size - edge)) return at;
+    const double range = size - 3 * edge, turns = std::floor((at - edge) / range);
+    return at - range * turns;
+}
+
 } // namespace
 
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
@@ -67,7 +78,8 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwSetWindowSizeLimits(window->window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window->window_, &scale_x, &scale_y);
-    window->display_scale_ = window->scale_ = std::clamp(options.scale > 0 ? options.scale : std::max(scale_x, scale_y), 0.5f, 4.f);
+    window->scale_is_given_ = options.scale > 0;
+    window->display_scale_ = window->scale_ = usable_scale(options.scale > 0 ? options.scale : std::max(scale_x, scale_y));
     window->assets_ = options.assets;
     window->install_callbacks();
     window->begin_imgui();
@@ -110,6 +122,11 @@ void Window::install_callbacks() {
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float x, float y) {
+        if (owner(w).scale_is_given_) return;
+        owner(w).display_scale_ = usable_scale(std::max(x, y)); // set_text_size() does the rest
+        owner(w).request_frames(frames_after_input);
+    });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
 }
@@ -133,8 +150,9 @@ void Window::apply_scale() {
 }
 
 void Window::set_text_size(int per_cent) {
-    if (std::exchange(text_size_, per_cent) == per_cent) return;
-    scale_ = display_scale_ * float(per_cent) / 100;
+    const float scale = display_scale_ * (float(per_cent) / 100);
+    if (scale == scale_) return;
+    scale_ = scale;
     apply_scale();
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -157,10 +175,34 @@ void Window::wake() {
     glfwPostEmptyEvent();
 }
 
+void Window::wrap_cursor(bool on) {
+    wraps_cursor_ = on;
+    if (!on) unwrapped_x_ = unwrapped_y_ = 0;
+}
+
+void Window::unwrap_mouse() {
+    ImGuiIO& io = ImGui::GetIO();
+    if (!wraps_cursor_ || !glfwGetWindowAttrib(window_, GLFW_FOCUSED)) return;
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    const double inside_x = away_from_edges(x, io.DisplaySize.x), inside_y = away_from_edges(y, io.DisplaySize.y);
+    if (inside_x != x || inside_y != y) {
+        glfwSetCursorPos(window_, inside_x, inside_y);
+        double moved_x = 0, moved_y = 0; // where it is, whether or not it could be moved
+        glfwGetCursorPos(window_, &moved_x, &moved_y);
+        unwrapped_x_ += x - moved_x;
+        unwrapped_y_ += y - moved_y;
+        x = moved_x;
+        y = moved_y;
+    }
+    io.MousePos = {float(x + unwrapped_x_), float(y + unwrapped_y_)};
+}
+
 void Window::begin_frame() {
     frames_due_ = std::max(frames_due_ - 1, 0);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    unwrap_mouse();
     ImGui::NewFrame();
 }
 

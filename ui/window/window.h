@@ -38,8 +38,12 @@ public:
     // Makes wait() return with a frame pending. Thread-safe while a window is open.
     static void wake();
 
-    // Text and UI size in per cent of the display's default. Must not be called within a frame.
+    // Text and UI size in per cent of the display's default, which changes when the window moves to another display. Call it before
+    // each frame.
     void set_text_size(int per_cent);
+    // While on, a cursor that reaches an edge of the window goes on at the opposite edge. ImGui's mouse position goes on without a
+    // jump, beyond the window, so that a drag has no end. No effect where programs must not move the cursor (Wayland).
+    void wrap_cursor(bool on);
     void begin_frame();
     // Renders ImGui's draw data over a cleared window and swaps the buffers.
     void end_frame();
@@ -67,14 +71,17 @@ private:
     void install_callbacks();
     void begin_imgui();
     void apply_scale();
+    void unwrap_mouse();
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
     Size windowed_{}; // size before full screen
     int windowed_x_ = 0, windowed_y_ = 0;
     float display_scale_ = 1, scale_ = 1; // of the display; of fonts and spacing, relative to 96 dpi
-    int text_size_ = 100;                 // per cent
+    bool scale_is_given_ = false;         // WindowOptions::scale replaces the display's
     std::filesystem::path assets_;
+    bool wraps_cursor_ = false;
+    double unwrapped_x_ = 0, unwrapped_y_ = 0; // from the cursor to ImGui's mouse position
     int frames_due_ = 3;
     std::vector<KeyPress> key_presses_;
     std::vector<std::filesystem::path> dropped_files_;

@@ -105,6 +105,46 @@ TEST(Typing, AcceptsTheNumberPad) {
     EXPECT_EQ(tool.press({.key = key::pad_enter}), Answer::confirmed);
 }
 
+TEST(Trackball, IsTheSecondR) {
+    TransformTool tool = Bench().tool(TransformMode::rotate);
+    EXPECT_FALSE(tool.is_trackball());
+    type(tool, "r");
+    EXPECT_TRUE(tool.is_trackball());
+    type(tool, "r");
+    EXPECT_FALSE(tool.is_trackball()) << "the third R is a plain rotation again";
+    type(tool, "gr");
+    EXPECT_FALSE(tool.is_trackball()) << "R from another mode";
+}
+
+// The view looks along -Z: what faces the viewer is at +Z.
+TEST(Trackball, SurfaceFollowsTheMouse) {
+    TransformTool tool = Bench().tool(TransformMode::rotate);
+    type(tool, "r");
+    tool.point_at({550, 300}, false, false); // 50 pixels to the right
+    EXPECT_NEAR(tool.motion().radians, 0.5, close);
+    expect_near(tool.motion().direction({0, 0, 1}), {std::sin(0.5), 0, std::cos(0.5)});
+    tool.point_at({500, 270}, false, false); // 30 pixels up
+    expect_near(tool.motion().direction({0, 0, 1}), {0, std::sin(0.3), std::cos(0.3)});
+    tool.point_at({530, 260}, false, false);
+    EXPECT_NEAR(tool.motion().radians, 0.5, close) << "both at once: 0.3 and 0.4";
+    EXPECT_GT(tool.motion().direction({0, 0, 1}).x, 0.2);
+    EXPECT_GT(tool.motion().direction({0, 0, 1}).y, 0.3);
+}
+
+TEST(Trackball, SnapsTypesAndHasNoAxes) {
+    TransformTool tool = Bench().tool(TransformMode::rotate);
+    type(tool, "r");
+    tool.point_at({511, 300}, false, true); // 6.3 degrees
+    EXPECT_NEAR(tool.motion().radians, 5 * degree, close);
+    type(tool, "x");
+    EXPECT_EQ(tool.lock(), AxisLock{});
+    tool.press({.key = key::tab});
+    type(tool, "90");
+    expect_near(tool.motion().direction({0, 0, 1}), {1, 0, 0});
+    EXPECT_NE(tool.text().find("trackball"), std::string::npos) << tool.text();
+    EXPECT_NE(tool.text().find("right 90|"), std::string::npos) << tool.text();
+}
+
 TEST(Keys, ConfirmCancelAndSwitchModes) {
     TransformTool tool = Bench().tool(TransformMode::grab);
     EXPECT_EQ(tool.press({.key = key::escape}), Answer::cancelled);

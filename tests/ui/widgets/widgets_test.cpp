@@ -153,6 +153,25 @@ TEST_F(ColorField, EyedropperSetsThePickedColour) {
 }
 
 // The window only draws requested frames.
+TEST_F(Widgets, OnlyADragOfTheNumberWrapsTheCursor) {
+    move(middle());
+    EXPECT_FALSE(ui.wraps_cursor);
+    press(true);
+    EXPECT_FALSE(ui.wraps_cursor) << "a click";
+    move(middle() + 30);
+    EXPECT_TRUE(ui.wraps_cursor);
+    press(false);
+    ui.wraps_cursor = false; // as the editor does in each frame
+    frame();
+    EXPECT_FALSE(ui.wraps_cursor) << "released";
+    rest();
+    for (const bool down : {true, false, true}) press(down); // the second click starts typing
+    type("1");
+    move(middle() + 60);
+    EXPECT_FALSE(ui.wraps_cursor) << "text is selected by the mouse";
+    press(false);
+}
+
 TEST_F(Widgets, TooltipAppearsAtRest) {
     constexpr double idle = 1;
     style.tip = "Stops of exposure.";

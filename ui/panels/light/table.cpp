@@ -95,6 +95,7 @@ void draw_intensity(PanelContext& c, const LightRow& row, const std::string& sco
     const std::string format = fmt::format("%.4g {}", row.unit);
     const bool changed = ImGui::DragFloat("##intensity", &value, std::max(std::abs(value) * 0.005f, 1e-4f), 0, 1e12f, format.c_str(),
                                           ImGuiSliderFlags_AlwaysClamp);
+    wrap_cursor_if_dragged(c.ui);
     if (ImGui::IsItemActivated()) c.ui.gestures.begin();
     if (changed && std::isfinite(value)) set_intensity(c, row, value);
     if (ImGui::IsItemDeactivated()) c.ui.gestures.end();
