@@ -1,6 +1,6 @@
 // The inspector: tabs, each with the sections that belong together.
 #include "ui/panels/panels.h"
-#include "ui/widgets/tooltip.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 
@@ -13,8 +13,7 @@ constexpr const char* tab_names[] = {"Selection", "Camera", "World", "Render", "
 
 // A row of tabs and a "?". Each is as wide as its name plus an equal share of the remaining width.
 void draw_tabs(PanelContext& c) {
-    const float mark = ImGui::GetFrameHeight();
-    float rest = ImGui::GetContentRegionAvail().x - mark;
+    float rest = ImGui::GetContentRegionAvail().x - guide_mark_width();
     for (const char* name : tab_names) rest -= ImGui::CalcTextSize(name).x;
     const float gap = rest / float(std::size(tab_names)), height = ImGui::GetFrameHeight() * 1.15f;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -35,11 +34,7 @@ void draw_tabs(PanelContext& c) {
             draw.AddRectFilled({low.x, high.y - 1}, high, tone::field);
     }
     ImGui::SameLine(0, 0);
-    const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize("?");
-    if (ImGui::InvisibleButton("?", {mark, height})) c.ui.guide_page = inspector_guide_page(c);
-    c.ui.probe.record_last_item("Tab/?");
-    draw.AddText({low.x + (mark - size.x) / 2, low.y + (height - size.y) / 2}, ImGui::IsItemHovered() ? tone::text : tone::dim_text, "?");
-    tip_for_last_item(c.ui, "Opens the page of the guide about this tab in the browser.");
+    guide_mark(c.ui, "Guide/Inspector", inspector_guide_page(c), height);
 }
 
 void draw_selection(PanelContext& c) {

@@ -4,6 +4,7 @@
 #include "ui/panels/light/drag.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/row_clicks.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
@@ -145,8 +146,11 @@ void draw_choices(PanelContext& c) {
 }
 
 void draw_add_light(PanelContext& c) {
-    if (ImGui::Button("Add light", {-FLT_MIN, 0})) ImGui::OpenPopup("add light");
+    const float padding = ImGui::GetStyle().WindowPadding.x; // the mark is at the outliner's edge, as in the inspector
+    if (ImGui::Button("Add light", {ImGui::GetContentRegionAvail().x + padding - guide_mark_width(), 0})) ImGui::OpenPopup("add light");
     c.ui.probe.record_last_item("Outliner/Add light");
+    ImGui::SameLine(0, 0);
+    guide_mark(c.ui, "Guide/Outliner", guide_page::outliner, ImGui::GetFrameHeight());
     if (!ImGui::BeginPopup("add light")) return;
     for (const Command command :
          {Command::add_point, Command::add_spot, Command::add_sun, Command::add_rectangle, Command::add_disk, Command::add_sphere}) {

@@ -1,5 +1,6 @@
 // The shortcut sheet (F1): all commands with a key, and the mouse controls.
 #include "ui/panels/panels.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -27,22 +28,22 @@ void line(const char* what, const char* how, float column) {
 // One column: the commands of some groups that have a key. Keys are aligned behind the longest name.
 void draw_groups(std::initializer_list<const char*> groups) {
     const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
-    float max_interval_ratio = 0;
+    float longest_name = 0;
     for (const Shortcut& s : shortcuts())
         for (const char* group : groups)
-            if (in(s, group)) max_interval_ratio = std::max(max_interval_ratio, ImGui::CalcTextSize(s.name).x);
+            if (in(s, group)) longest_name = std::max(longest_name, ImGui::CalcTextSize(s.name).x);
     for (const char* group : groups) {
         heading(group);
         for (const Shortcut& s : shortcuts())
-            if (in(s, group)) line(s.name, keys_of(s).c_str(), max_interval_ratio + ImGui::GetFontSize());
+            if (in(s, group)) line(s.name, keys_of(s).c_str(), longest_name + ImGui::GetFontSize());
     }
 }
 
 void draw_mouse() {
-    float max_interval_ratio = 0;
-    for (const MouseHint& hint : mouse_hints()) max_interval_ratio = std::max(max_interval_ratio, ImGui::CalcTextSize(hint.action).x);
+    float longest_name = 0;
+    for (const MouseHint& hint : mouse_hints()) longest_name = std::max(longest_name, ImGui::CalcTextSize(hint.action).x);
     heading("Mouse");
-    for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, max_interval_ratio + ImGui::GetFontSize());
+    for (const MouseHint& hint : mouse_hints()) line(hint.action, hint.gesture, longest_name + ImGui::GetFontSize());
 }
 
 } // namespace
@@ -56,6 +57,7 @@ void draw_shortcut_sheet(PanelContext& c) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
         if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
+        guide_mark_in_title_bar(c.ui, "Guide/Shortcuts", guide_page::shortcuts);
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();

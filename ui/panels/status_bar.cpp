@@ -2,6 +2,7 @@
 #include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 #include "ui/window/time_text.h"
@@ -151,11 +152,13 @@ void draw_status_bar(PanelContext& c) {
         cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
                          "Zoom: screen pixels per picture pixel. Z switches back to fit.", tone::dim_text, 5});
     const std::string exposure = exposure_text(c);
-    const float right = width - left - ImGui::CalcTextSize(exposure.c_str()).x;
+    const float right = width - guide_mark_width() - (exposure.empty() ? 0 : left + ImGui::CalcTextSize(exposure.c_str()).x);
     if (failed)
         cells.push_back({30, elided(c.status.message, right - left - 8 * ImGui::GetFontSize()), c.status.message, tone::failure, 9});
     draw(c, fitting(std::move(cells), right - left), left);
     if (!exposure.empty()) draw(c, {{0, exposure, "Exposure of the display.", tone::dim_text, 0}}, right);
+    ImGui::SetCursorPos({width - guide_mark_width(), 0});
+    guide_mark(c.ui, "Guide/Status bar", guide_page::status_bar, ImGui::GetWindowHeight());
 }
 
 } // namespace blush

@@ -1,6 +1,7 @@
 // Timeline: the animation clip and the time. A row below the picture, for scenes with animations.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
@@ -63,7 +64,8 @@ void draw_slider(PanelContext& c, const Clip& clip) {
     TimeView& time = c.ui.time;
     SceneSelection staging = c.scene().staging;
     const std::string length = fmt::format("/ {:.2f} s", clip.seconds);
-    ImGui::SetNextItemWidth(-ImGui::CalcTextSize(length.c_str()).x - 2 * ImGui::GetStyle().ItemSpacing.x);
+    const float padding = ImGui::GetStyle().WindowPadding.x; // the mark is at the edge, and its gap is as wide as the slider's
+    ImGui::SetNextItemWidth(padding - guide_mark_width() - ImGui::CalcTextSize(length.c_str()).x - 2 * ImGui::GetStyle().ItemSpacing.x);
     const bool moved = ImGui::SliderFloat("##time", &staging.seconds, 0, clip.seconds, "%.2f s", ImGuiSliderFlags_AlwaysClamp);
     c.ui.probe.record_last_item("Time/Time");
     if (ImGui::IsItemActivated()) time = {.gesture = c.ui.gestures.begin(), .dragged = true};
@@ -90,6 +92,10 @@ void play(PanelContext& c, const Clip& clip) {
 } // namespace
 
 void draw_time(PanelContext& c) {
+    const ImVec2 begin = ImGui::GetCursorPos();
+    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - guide_mark_width());
+    guide_mark(c.ui, "Guide/Timeline", guide_page::timeline, ImGui::GetFrameHeight());
+    ImGui::SetCursorPos(begin);
     ImGui::AlignTextToFramePadding();
     draw_clips(c);
     const Clip* found = c.scene().clips.find(c.scene().staging.clip);

@@ -2,6 +2,7 @@
 
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/picture_pixels.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
@@ -24,6 +25,15 @@ void draw_list(PanelContext& c, const Frame* frame) {
     }
 }
 
+// On a field, so that it is readable over any picture.
+void draw_mark(PanelContext& c) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetFrameHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + guide_mark_width(), low.y + side}, tone::field,
+                                              ImGui::GetStyle().FrameRounding);
+    guide_mark(c.ui, "Guide/Viewport", guide_page::viewport, side);
+}
+
 } // namespace
 
 void show_aov(PanelContext& c, const AovView& view) {
@@ -34,10 +44,10 @@ void show_aov(PanelContext& c, const AovView& view) {
 }
 
 void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
-    const float em = ImGui::GetFontSize(), width = em * 9;
+    const float em = ImGui::GetFontSize(), width = em * 9, gap = em * 0.2f, whole = width + gap + guide_mark_width();
     if (c.ui.snapshots.compare.mode != Comparison::Mode::off || seen.width < width * 2) return;
-    ImGui::SetNextWindowPos({std::round(seen.x + seen.width - width - em * 0.5f), std::round(seen.y + em * 0.5f)});
-    ImGui::SetNextWindowSize({width, ImGui::GetFrameHeight()});
+    ImGui::SetNextWindowPos({std::round(seen.x + seen.width - whole - em * 0.5f), std::round(seen.y + em * 0.5f)});
+    ImGui::SetNextWindowSize({whole, ImGui::GetFrameHeight()});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
@@ -55,6 +65,8 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
         draw_list(c, frame);
         ImGui::EndCombo();
     }
+    ImGui::SameLine(0, gap);
+    draw_mark(c);
     ImGui::End();
 }
 

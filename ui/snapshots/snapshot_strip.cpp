@@ -1,7 +1,9 @@
 #include "ui/snapshots/snapshot_strip.h"
 
 #include "ui/gl/texture_id.h"
+#include "ui/viewport/regions.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
@@ -124,9 +126,12 @@ void delete_snapshot(PanelContext& c, const Snapshot& s) {
 void draw_snapshot_strip(PanelContext& c, const Region& region, const std::function<ThumbnailPart(size_t)>& part) {
     if (region.height <= 0) return;
     const std::vector<SnapshotPtr> list = c.ui.snapshots.list; // a copy: the menu may delete one
-    const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap;
+    const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap, mark = guide_mark_width();
+    begin_region("Snapshots guide", {region.x + region.width - mark, region.y, mark, region.height}, {.padded = false});
+    guide_mark(c.ui, "Guide/Snapshots", guide_page::snapshot_strip, ImGui::GetFrameHeight());
+    end_region();
     ImGui::SetNextWindowPos({region.x, region.y});
-    ImGui::SetNextWindowSize({region.width, region.height});
+    ImGui::SetNextWindowSize({region.width - mark, region.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap, gap});
     ImGui::Begin("Snapshots", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

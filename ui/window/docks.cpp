@@ -1,12 +1,14 @@
 #include "ui/window/docks.h"
 
 #include "ui/viewport/regions.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
 #include <imgui_internal.h> // which window is moved by the mouse
 #include <optional>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -88,17 +90,20 @@ void draw_dock(PanelContext& c, std::span<const Instrument> instruments, DockSid
     if (region.width <= 0 || region.height <= 0 || ids.empty()) return;
     begin_region(side == DockSide::right ? "Right dock" : "Bottom dock", region, {.padded = false});
     constexpr ImGuiTabBarFlags flags = ImGuiTabBarFlags_Reorderable | ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip;
-    if (ImGui::BeginTabBar("tabs", flags)) {
+    const ImVec2 corner{region.x + region.width - guide_mark_width(), ImGui::GetCursorScreenPos().y};
+    float& tabs_end = ImGui::GetCurrentWindow()->WorkRect.Max.x;
+    const float end = std::exchange(tabs_end, corner.x); // the tabs end before the mark, the content does not
+    const bool begun = ImGui::BeginTabBar("tabs", flags);
+    tabs_end = end;
+    if (begun) {
         std::vector<std::pair<float, std::string>> places;
         for (const std::string& id : ids)
             if (const auto x = draw_tab(c, *find_instrument(instruments, id), side, region)) places.emplace_back(*x, id);
-        const Instrument* const front = find_instrument(instruments, c.ui.settings.dock.front[size_t(side)]);
-        if (front && ImGui::TabItemButton("?", ImGuiTabItemFlags_Trailing | ImGuiTabItemFlags_NoTooltip)) c.ui.guide_page = front->guide;
-        if (front) {
-            c.ui.probe.record_last_item(std::string("Dock guide/") + front->title);
-            tip_for_last_item(c.ui, "Opens the page of the guide about this panel in the browser.");
-        }
         ImGui::EndTabBar();
+        if (const Instrument* const front = find_instrument(instruments, c.ui.settings.dock.front[size_t(side)])) {
+            ImGui::SetCursorScreenPos(corner);
+            guide_mark(c.ui, std::string("Dock guide/") + front->title, front->guide, ImGui::GetFrameHeight());
+        }
         std::ranges::sort(places);
         Ids shown;
         for (const auto& [x, id] : places) shown.push_back(id);
@@ -134,23 +139,6 @@ void follow_mouse(PanelContext& c, const Instrument& i, const Layout& l) {
     }
 }
 
-// "?" in the title bar, to the left of the button that closes the window.
-void draw_guide_button(PanelContext& c, const Instrument& i) {
-    ImGuiWindow& window = *ImGui::GetCurrentWindow();
-    const ImRect bar = window.TitleBarRect();
-    const float side = bar.GetHeight();
-    const ImRect box({bar.Max.x - 2 * side, bar.Min.y}, {bar.Max.x - side, bar.Max.y});
-    const ImGuiID id = window.GetID("?");
-    ImGui::PushClipRect(bar.Min, bar.Max, false);
-    bool hovered = false, held = false;
-    if (ImGui::ItemAdd(box, id) && ImGui::ButtonBehavior(box, id, &hovered, &held)) c.ui.guide_page = i.guide;
-    const ImVec2 text = ImGui::CalcTextSize("?");
-    ImGui::GetWindowDrawList()->AddText({box.GetCenter().x - text.x / 2, box.GetCenter().y - text.y / 2},
-                                        hovered ? tone::text : tone::dim_text, "?");
-    ImGui::PopClipRect();
-    c.ui.probe.record(std::string("Window guide/") + i.title, {box.Min.x, box.Min.y, side, side});
-}
-
 void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     DockView& view = c.ui.docks;
     const float em = ImGui::GetFontSize();
@@ -177,7 +165,7 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);
     tip_for_last_item(c.ui, "Double-click to dock, or drop it on a dock or at an edge of the picture.");
     draw_menu(c, i);
-    draw_guide_button(c, i);
+    guide_mark_in_title_bar(c.ui, std::string("Window guide/") + i.title, i.guide);
     follow_mouse(c, i, l);
     view.in_sight.insert(i.id);
     if (drawn) i.draw(c);

@@ -114,6 +114,7 @@ constexpr MouseHint hints[] = {
     {"Move, aim, resize", "Drag the handles of the selection"},
     {"Move, rotate, scale (G R S)", "X Y Z: axis, twice: local, Shift+: plane"},
     {"", "Digits: amount; Shift: finely; Ctrl: snap"},
+    {"", "R twice: trackball"},
     {"", "Enter/click: confirm; Esc/right-click: cancel"},
     {"Restore a snapshot", "Click its card; right-click for more"},
     {"Link light and object", "Shift+click the object, light selected"},
