@@ -59,6 +59,7 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     float& target = view.targets[size_t(view.metric)];
     const float speed = std::max(target * 0.01f, 1e-5f);
     ImGui::DragFloat("##target", &target, speed, 0, 1e6f, target > 0 ? "%.3g" : "none", ImGuiSliderFlags_AlwaysClamp);
+    wrap_cursor_if_dragged(c.ui);
     c.ui.probe.record_last_item("Convergence/Target");
     tip_for_last_item(c.ui,
                       "Target error. The panel predicts from the fitted slope when it is reached. Drag, or Ctrl+click to type; 0 is none.");
@@ -135,22 +136,34 @@ void draw_readout(const ConvergenceView& view, const ConvergencePlot& p, const P
     draw.AddText({x + room.x, y + room.y}, tone::text, text.c_str());
 }
 
-// Legend of the line styles, right-aligned in the title line. The list of runs is the legend of the colours.
-void draw_key(const ConvergencePlot& p, const PlotLayout& l, ImVec2 origin) {
+struct KeyEntry {
+    PlotCurve::Line line;
+    std::string text;
+    float width() const { return ImGui::CalcTextSize(text.c_str()).x + 3.6f * ImGui::GetFontSize(); } // with line sample and gap
+};
+
+// Legend of the line styles, from right to left. The list of runs is the legend of the colours.
+std::vector<KeyEntry> key_of(const ConvergencePlot& p) {
+    if (p.sources.empty()) return {};
+    std::vector<KeyEntry> key{{p.plot.curves.back().line, p.plot.curves.back().name}};
+    const auto has = [&](Kind kind) { return std::ranges::find(p.sources, kind, &ConvergencePlot::Source::kind) != p.sources.end(); };
+    if (has(Kind::denoised)) key.push_back({PlotCurve::Line::dashed, "denoised"});
+    if (has(Kind::measured)) key.push_back({PlotCurve::Line::dotted, "raw, measured"});
+    if (has(Kind::estimated)) key.push_back({PlotCurve::Line::solid, "raw, estimated"});
+    return key;
+}
+
+// Right-aligned in the title line; what does not fit is left out.
+void draw_key(const std::vector<KeyEntry>& key, const PlotLayout& l, ImVec2 origin) {
     const float em = ImGui::GetFontSize(), y = origin.y + float(l.top) - 1.55f * em;
     float x = origin.x + float(l.right);
-    const auto entry = [&](PlotCurve::Line line, const std::string& text) {
-        const float width = ImGui::CalcTextSize(text.c_str()).x;
-        ImGui::GetWindowDrawList()->AddText({std::round(x - width), std::round(y)}, tone::dim_text, text.c_str());
-        draw_line_sample(*ImGui::GetWindowDrawList(), line, {x - width - 2.4f * em, y + em * 0.6f}, 2 * em, tone::dim_text, em);
-        x -= width + 3.6f * em;
-    };
-    if (p.sources.empty()) return;
-    entry(p.plot.curves.back().line, p.plot.curves.back().name);
-    const auto has = [&](Kind kind) { return std::ranges::find(p.sources, kind, &ConvergencePlot::Source::kind) != p.sources.end(); };
-    if (has(Kind::denoised)) entry(PlotCurve::Line::dashed, "denoised");
-    if (has(Kind::measured)) entry(PlotCurve::Line::dotted, "raw, measured");
-    if (has(Kind::estimated)) entry(PlotCurve::Line::solid, "raw, estimated");
+    for (const KeyEntry& entry : key) {
+        const float width = ImGui::CalcTextSize(entry.text.c_str()).x;
+        if (x - entry.width() < origin.x) return;
+        ImGui::GetWindowDrawList()->AddText({std::round(x - width), std::round(y)}, tone::dim_text, entry.text.c_str());
+        draw_line_sample(*ImGui::GetWindowDrawList(), entry.line, {x - width - 2.4f * em, y + em * 0.6f}, 2 * em, tone::dim_text, em);
+        x -= entry.width();
+    }
 }
 
 void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
@@ -160,8 +173,12 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     const ImFont& font = *ImGui::GetFont();
     const float em = ImGui::GetFontSize();
     const PlotLayout l = compute_plot_layout(p.plot, plot_metrics(size, font, em, false));
+    const std::vector<KeyEntry> key = key_of(p);
+    float needed = ImGui::CalcTextSize(p.plot.title.c_str()).x;
+    for (const KeyEntry& entry : key) needed += entry.width();
+    if (needed > l.right - l.left) p.plot.title.clear(); // the buttons above say what is plotted, too
     draw_plot(*ImGui::GetWindowDrawList(), p.plot, l, origin, font, em, plot_tones_dark());
-    draw_key(p, l, origin);
+    draw_key(key, l, origin);
     ImGui::InvisibleButton("chart", size);
     c.ui.probe.record_last_item("Convergence/Chart");
     if (ImGui::IsItemHovered()) draw_readout(view, p, l, origin);

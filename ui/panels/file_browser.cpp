@@ -2,6 +2,8 @@
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/snapshots_view.h"
+#include "ui/widgets/elided_text.h"
+#include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/file_listing.h"
 #include "ui/window/file_places.h"
@@ -64,7 +66,7 @@ void draw_path_row(PanelContext& c) {
     if (b.just_opened) ImGui::SetKeyboardFocusHere();
     b.just_opened = false;
     constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion;
-    if (ImGui::InputText("##path", &b.typed, flags, complete, &b)) take_typed(c);
+    if (elided_path_input(c.ui, "##path", b.typed, flags, complete, &b)) take_typed(c);
     if (c.ui.browser) c.ui.probe.record_last_item("Browser/Path");
 }
 
@@ -88,7 +90,8 @@ void draw_places(PanelContext& c, float width, float height) {
     int id = 0;
     for (const FilePlace& place : file_places(c.ui.settings, c.ui.browser->scene_folder)) {
         ImGui::PushID(id++);
-        if (ImGui::Selectable(place.name.c_str(), place.folder == c.ui.browser->folder, ImGuiSelectableFlags_DontClosePopups))
+        const std::string name = elided(place.name, ImGui::GetContentRegionAvail().x) + "###place";
+        if (ImGui::Selectable(name.c_str(), place.folder == c.ui.browser->folder, ImGuiSelectableFlags_DontClosePopups))
             entered = place.folder;
         c.ui.probe.record_last_item("Browser/Place/" + place.name);
         tip_for_last_item(c.ui, place.folder.string().c_str());
@@ -128,17 +131,20 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     draw_entry_picture(c, entry, height);
     ImGui::SameLine();
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
+    const std::string shown = elided_middle(entry.name, ImGui::GetContentRegionAvail().x);
     const bool clicked = ImGui::Selectable(
-        entry.name.c_str(), b.chosen == entry.name,
+        (shown + "###" + entry.name).c_str(), b.chosen == entry.name,
         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups, {0, height});
     ImGui::PopStyleVar();
     c.ui.probe.record_last_item("Browser/" + entry.name);
+    if (shown != entry.name) tip_for_last_item(c.ui, entry.name.c_str());
     const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (clicked && !entry.folder) {
         b.chosen = entry.name;
         b.typed = (b.folder / entry.name).string();
     }
     ImGui::TableNextColumn();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (height - ImGui::GetTextLineHeight()) / 2);
     if (!entry.folder) ImGui::TextDisabled("%s", bytes_text(entry.bytes).c_str());
     if (clicked && entry.folder)
         enter(b, b.folder / entry.name);
@@ -208,6 +214,7 @@ void draw_file_browser(PanelContext& c) {
     ImGui::SetNextWindowSize({std::min(em * 44, screen.x * 0.9f), std::min(em * 32, screen.y * 0.85f)}, ImGuiCond_Appearing);
     bool open = true;
     if (ImGui::BeginPopupModal(name, &open, ImGuiWindowFlags_NoCollapse)) {
+        guide_mark_in_title_bar(c.ui, "Guide/File browser", guide_page::file_browser);
         draw_path_row(c);
         const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
         const float height = ImGui::GetContentRegionAvail().y - below;

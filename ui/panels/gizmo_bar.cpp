@@ -24,6 +24,7 @@ bool button(PanelContext& c, const char* name, Icon icon, bool chosen, const std
 void draw_gizmo_bar(PanelContext& c, const Region& picture) {
     if (!c.ui.settings.overlays || c.ui.transform.active || !c.scene().nodes.contains(c.ui.selected)) return;
     const float em = ImGui::GetFontSize();
+    if (picture.height < em * 19) return; // it would cover the environment dial; keys do the same
     ImGui::SetNextWindowPos({std::max(picture.x, 0.f) + em * 0.5f, picture.y + picture.height / 2}, ImGuiCond_Always, {0, 0.5f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em / 4);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.2f, em * 0.2f});

@@ -1,6 +1,7 @@
 // The menu bar: all commands that are in a menu, with their shortcuts.
 #include "ui/panels/panels.h"
 
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
 
 #include <algorithm>
@@ -17,10 +18,15 @@ void item(PanelContext& c, Command command, bool enabled = true, const char* nam
     c.ui.probe.record_last_item(fmt::format("Menu/{}", s.name));
 }
 
+// Of names of files and edits.
+float max_name_width() { return std::min(ImGui::GetFontSize() * 32, ImGui::GetIO().DisplaySize.x * 0.45f); }
+
 void draw_recent(PanelContext& c) {
     if (!ImGui::BeginMenu("Open recent", !c.ui.settings.recent.empty())) return;
     for (const std::string& file : c.ui.settings.recent) {
-        if (ImGui::MenuItem(file.c_str())) c.ui.files.push_back({FileRequest::Use::open, file});
+        const std::string shown = elided_middle(file, max_name_width());
+        if (ImGui::MenuItem((shown + "###" + file).c_str())) c.ui.files.push_back({FileRequest::Use::open, file});
+        if (shown != file) tip_for_last_item(c.ui, file.c_str());
     }
     ImGui::EndMenu();
 }
@@ -29,7 +35,8 @@ void draw_demos(PanelContext& c) {
     if (!ImGui::BeginMenu("Demos", !c.ui.demos.empty())) return;
     for (const std::string& file : c.ui.demos) {
         const std::string name = std::filesystem::path(file).stem().string();
-        if (ImGui::MenuItem(name.c_str())) c.ui.files.push_back({FileRequest::Use::open, file});
+        if (ImGui::MenuItem((elided_middle(name, max_name_width()) + "###" + name).c_str()))
+            c.ui.files.push_back({FileRequest::Use::open, file});
         c.ui.probe.record_last_item("Menu/Demos/" + name);
     }
     ImGui::EndMenu();
@@ -67,8 +74,11 @@ void draw_file_menu(PanelContext& c) {
 
 void draw_edit_menu(PanelContext& c) {
     const Document& d = c.document;
-    item(c, Command::undo, d.can_undo(), d.can_undo() ? fmt::format("Undo: {}", d.undo_label()).c_str() : nullptr);
-    item(c, Command::redo, d.can_redo(), d.can_redo() ? fmt::format("Redo: {}", d.redo_label()).c_str() : nullptr);
+    const auto named = [](const char* verb, const std::string& edit) {
+        return elided(fmt::format("{}: {}", verb, edit), max_name_width());
+    };
+    item(c, Command::undo, d.can_undo(), d.can_undo() ? named("Undo", d.undo_label()).c_str() : nullptr);
+    item(c, Command::redo, d.can_redo(), d.can_redo() ? named("Redo", d.redo_label()).c_str() : nullptr);
     item(c, Command::history, true, nullptr, c.ui.show_history);
     ImGui::Separator();
     const bool selected = c.scene().nodes.contains(c.ui.selected);

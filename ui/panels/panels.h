@@ -11,6 +11,7 @@
 namespace blush {
 
 class Fields;
+struct RouletteReport;
 
 // Regions of the layout, drawn into the current ImGui window.
 void draw_menu_bar(PanelContext& c);
@@ -50,6 +51,7 @@ void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
+void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: what was measured
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 // Runs the meters, even if their panel is closed: the picture shows their readings.

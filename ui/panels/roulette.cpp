@@ -4,6 +4,7 @@
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
 #include "ui/widgets/bars.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
@@ -42,26 +43,26 @@ std::string formula(const Roulette& r) {
 
 void figure_row(const char* name, const std::string& rule, const std::string& none, const char* tip, UiState& ui) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(name);
+    elided_text(ui, name, tone::text);
     tip_for_last_item(ui, tip);
     for (const std::string& text : {rule, none}) {
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(text.c_str());
+        elided_text(ui, text, tone::text);
     }
 }
 
 void draw_figures(PanelContext& c, const RouletteReport& r) {
-    if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchSame)) return;
+    if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_SizingStretchProp)) return;
     for (const char* column : {"", "Current", "Off"}) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     const auto row = [&](const char* name, double RouletteSide::*field, const char* format, double scale, const char* tip) {
         figure_row(name, fmt::format(fmt::runtime(format), scale * (r.rule.*field)),
                    fmt::format(fmt::runtime(format), scale * (r.none.*field)), tip, c.ui);
     };
-    row("Path length", &RouletteSide::path_length, "{:.2f} vertices", 1,
+    row("Path length", &RouletteSide::path_length, "{:.4g}", 1,
         "Mean number of vertices, including the one where the path leaves the scene.");
-    row("Rays per pixel", &RouletteSide::rays_per_path, "{:.2f}", 1, "Rays of one sample: camera, bounce and shadow rays.");
-    row("Time per path", &RouletteSide::path_seconds, "{:.3f} µs", 1e6, "Time of one thread.");
+    row("Rays per path", &RouletteSide::rays_per_path, "{:.4g}", 1, "Rays of one sample: camera, bounce and shadow rays.");
+    row("Time per path", &RouletteSide::path_seconds, "{:.4g} µs", 1e6, "Time of one thread.");
     row("Variance", &RouletteSide::variance, "{:.4g}", 1, "Variance of the luminance of one path, mean over the pixels.");
     row("Efficiency", &RouletteSide::efficiency, "{:.4g}", 1, "1 / (variance x time). Higher is better.");
     ImGui::EndTable();
@@ -92,7 +93,7 @@ void draw_bias(const RouletteReport& r) {
                                       : fmt::format("Unbiased within noise: the picture differs by {}.", size).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchSame)) return;
+    if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchProp)) return;
     for (const char* column : {"", "Share of light", "Difference"}) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     for (size_t i = 1; i < r.bias.size(); ++i) {
@@ -120,12 +121,16 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
     if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");
-    if (section(c.ui, "Compared with no roulette")) draw_figures(c, state.answer);
-    if (section(c.ui, "Survival by bounce")) draw_survival(c, state.answer);
-    if (section(c.ui, "Bias test")) draw_bias(state.answer);
+    draw_roulette_report(c, state.answer);
 }
 
 } // namespace
+
+void draw_roulette_report(PanelContext& c, const RouletteReport& report) {
+    if (section(c.ui, "Compared with no roulette")) draw_figures(c, report);
+    if (section(c.ui, "Survival by bounce")) draw_survival(c, report);
+    if (section(c.ui, "Bias test")) draw_bias(report);
+}
 
 void draw_roulette_panel(PanelContext& c) {
     RouletteView& view = c.ui.roulette;

@@ -15,7 +15,12 @@
 #include "ui/window/window_settings.h"
 
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <imgui_internal.h> // the stack of popups
+#include <set>
 
 namespace blush {
 namespace {
@@ -102,6 +107,37 @@ FramePtr long_frame(const Scene& scene) {
     return f;
 }
 
+struct Widget {
+    std::string name;
+    float x = 0, y = 0; // its middle
+};
+
+// The widgets of the last frame.
+class ProbeFile {
+public:
+    explicit ProbeFile(UiState& ui) : ui_(ui) { ui_.probe = Probe(file_); }
+    ~ProbeFile() { std::filesystem::remove(file_); }
+
+    std::vector<Widget> widgets() const {
+        ui_.probe.end_frame({});
+        std::vector<Widget> found;
+        std::ifstream in(file_);
+        for (std::string line; std::getline(in, line);) {
+            const size_t end = line.find("\": {\"height\"");
+            float height = 0, width = 0, x = 0, y = 0;
+            if (line.rfind("  \"", 0) != 0 || end == std::string::npos) continue;
+            constexpr const char* format = "{\"height\":%f,\"width\":%f,\"x\":%f,\"y\":%f}";
+            if (std::sscanf(line.c_str() + end + 3, format, &height, &width, &x, &y) == 4)
+                found.push_back({line.substr(3, end - 3), x + std::min(width / 2, 20.f), y + height / 2});
+        }
+        return found;
+    }
+
+private:
+    UiState& ui_;
+    const std::filesystem::path file_ = std::filesystem::temp_directory_path() / "blush_long_names.json";
+};
+
 class LongNames : public testing::Test {
 protected:
     void TearDown() override {
@@ -123,16 +159,21 @@ protected:
         ui.docks = {};
     }
 
-    // Draws some frames of the window; returns the unreadable texts of the last one.
-    void expect_readable(const std::string& what) {
+    void draw_frames(int count) {
         const std::optional<Mixing> mixing = mixing_of(*frame->light_groups, document.project().scene);
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < count; ++i) {
+            ui.probe.begin_frame();
             ImGui::NewFrame();
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             c.mixing = mixing ? &*mixing : nullptr;
             draw(c);
             ImGui::Render();
         }
+    }
+
+    // Draws some frames of the window; the texts of the last one must be readable.
+    void expect_readable(const std::string& what) {
+        draw_frames(4);
         const ImVec2 size = ImGui::GetIO().DisplaySize;
         for (const std::string& problem : test::unreadable_text(*ImGui::GetDrawData(), {"log"}))
             ADD_FAILURE() << what << " at " << size.x << " x " << size.y << ", " << ImGui::GetFontSize() << " pixels: " << problem;
@@ -151,6 +192,23 @@ protected:
         end_region();
         draw_snapshot_strip(c, l.strip, [](size_t) { return ThumbnailPart{}; });
         if (extra) extra(c, l);
+    }
+
+    // Presses and releases a mouse button; the mouse stays there.
+    void click(const Widget& widget, int button) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.MousePos = {widget.x, widget.y};
+        draw_frames(1);
+        io.MouseDown[button] = true;
+        draw_frames(1);
+        io.MouseDown[button] = false;
+        draw_frames(2);
+    }
+    void close_popups() {
+        if (GImGui->OpenPopupStack.Size > 0) ImGui::ClosePopupToLevel(0, false);
+        ImGui::ClearActiveID();
+        ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+        draw_frames(1);
     }
 
     template <class Body> void at_all_sizes(const Body& body) {
@@ -203,7 +261,7 @@ TEST_F(LongNames, EveryInstrumentInEitherDock) {
     }
     at_all_sizes([&] {
         for (const Instrument& i : instruments()) {
-            if (std::string(i.id) == "roulette") continue; // it renders while it is open; it has no user-defined names
+            if (std::string(i.id) == "roulette") continue; // it renders while it is open: see RouletteLab
             PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
             const bool was_open = i.is_open(c);
             if (std::string(i.id) == "comparison") ui.snapshots.compare = {Comparison::Mode::difference, 1, live_image};
@@ -241,6 +299,119 @@ TEST_F(LongNames, PopupsAndDialogs) {
         expect_readable("question");
         ui.question.reset();
     });
+}
+
+// The longest figures that the lab can show.
+TEST_F(LongNames, RouletteLab) {
+    RouletteReport report;
+    report.rounds = 123456;
+    report.width = report.height = 96;
+    report.rule = {12345.67, 123456.78, 0.012345678, 1.2345e-12, 1.2345e-12, {}, {}};
+    report.none = {12345.67, 123456.78, 0.012345678, 1.2345e+12, 1.2345e+12, {}, {}};
+    report.rule.alive.assign(14, 1);
+    report.rule.survival.assign(14, 1);
+    report.efficiency_gain = 12345.67;
+    report.gain_error = 1234.56;
+    report.bias.push_back({"whole image", 1, -0.987654, 0.012345, true});
+    for (int k = 0; k < 12; ++k) report.bias.push_back({fmt::format("bounce {}+", k), 1, -0.987654, 0.987654, true});
+    extra = [&](PanelContext& c, const Layout& l) {
+        begin_region("Lab", l.right_dock.width > 0 ? l.right_dock : l.inspector);
+        draw_roulette_report(c, report);
+        end_region();
+    };
+    at_all_sizes([&] { expect_readable("roulette lab"); });
+}
+
+// A folder with long names, in the middle of a long path.
+struct LongFolder {
+    std::filesystem::path root = std::filesystem::temp_directory_path() / "blush_long_names";
+    std::filesystem::path folder = root / long_name("Outer") / long_name("Inner");
+    LongFolder() {
+        std::filesystem::create_directories(folder / long_name("Folder"));
+        for (const char* name : {"scene.gltf", "map.exr", "lamp.ies", "chart.csv"})
+            std::ofstream(folder / (long_name("File") + "_" + name)) << "x";
+    }
+    ~LongFolder() { std::filesystem::remove_all(root); }
+};
+
+TEST_F(LongNames, FileBrowser) {
+    const LongFolder files;
+    extra = [](PanelContext& c, const Layout&) { draw_file_browser(c); };
+    ui.settings.bookmarks = {files.folder.string()};
+    ui.settings.recent = {(files.folder / "scene.gltf").string()};
+    using Use = FileRequest::Use;
+    at_all_sizes([&] {
+        for (const Use use : {Use::open, Use::environment, Use::ies, Use::snapshot_folder, Use::convergence, Use::save_scene}) {
+            ui.browser = FileBrowser{.use = use, .folder = files.folder, .typed = {}, .chosen = {}, .scene_folder = files.root};
+            draw_frames(3);
+            ImGui::ClearActiveID(); // the field for the path scrolls while it is edited
+            expect_readable(title_of(use));
+            ui.browser.reset();
+            close_popups();
+        }
+    });
+}
+
+TEST_F(LongNames, OpenMenus) {
+    for (int i = 0; i < 3; ++i) ui.settings.recent.push_back("/home/somebody/" + long_name("Folder") + "/" + long_name("Recent") + ".gltf");
+    ui.demos = {"/home/" + long_name("Demo") + ".gltf"};
+    Node node = *document.project().scene.nodes.find(document.project().scene.nodes.entries().front().id);
+    node.name = long_name("Renamed");
+    ASSERT_TRUE(document.apply(SetNode{document.project().scene.nodes.entries().front().id, node}));
+    const ProbeFile probe(ui);
+    std::set<std::string> submenus;
+    at_all_sizes([&] {
+        draw_frames(2);
+        for (const Widget& title : probe.widgets()) {
+            if (title.name.rfind("Menu bar/", 0) != 0) continue;
+            click(title, 0);
+            ASSERT_EQ(GImGui->OpenPopupStack.Size, 1) << title.name;
+            expect_readable(title.name);
+            const ImRect rows = GImGui->OpenPopupStack[0].Window->Rect();
+            for (float y = rows.Min.y; y < rows.Max.y; y += ImGui::GetTextLineHeight()) {
+                ImGui::GetIO().MousePos = {rows.Min.x + ImGui::GetFontSize() * 2, y};
+                draw_frames(3);
+                if (GImGui->OpenPopupStack.Size < 2) continue;
+                submenus.insert(fmt::format("{} {}", title.name, GImGui->OpenPopupStack[1].PopupId));
+                expect_readable("submenu of " + title.name);
+            }
+            close_popups();
+        }
+    });
+    EXPECT_EQ(submenus.size(), 4u) << "recent files, demos, new lights, text size";
+}
+
+// Combo boxes, context menus, colour pickers: every popup that a click on a widget opens.
+TEST_F(LongNames, EveryPopupThatAClickOpens) {
+    const ProbeFile probe(ui);
+    ui.snapshots.list = {snapshot(1, document.project())};
+    std::set<std::string> popups;
+    const auto expect_readable_popup = [&](const Widget& widget, int button) {
+        const UiState state = ui;
+        const Document before = document;
+        click(widget, button);
+        if (GImGui->OpenPopupStack.Size > 0) {
+            popups.insert(widget.name);
+            expect_readable((button ? "right click on " : "click on ") + widget.name);
+        }
+        ui = state;
+        document = before;
+        close_popups();
+    };
+    at_all_sizes([&] {
+        std::set<std::string> clicked;
+        for (const auto& entry : document.project().scene.nodes)
+            for (int tab = 0; tab <= int(InspectorTab::display); ++tab) {
+                ui.select(entry.id);
+                ui.tab = InspectorTab(tab);
+                draw_frames(2);
+                for (const Widget& widget : probe.widgets())
+                    for (const int button : {0, 1})
+                        if (clicked.insert(fmt::format("{} {}", widget.name, button)).second) expect_readable_popup(widget, button);
+            }
+    });
+    for (const char* name : {"Outliner/Add light", "Outliner/Scene", "Snapshot/1"}) EXPECT_TRUE(popups.contains(name)) << name;
+    EXPECT_GT(popups.size(), 30u);
 }
 
 } // namespace
