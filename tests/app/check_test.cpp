@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush_json;
@@ -47,4 +47,4 @@ TEST(CheckCommand, UnknownGroupIsAUsageError) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

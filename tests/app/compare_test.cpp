@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush_json;
@@ -72,4 +72,4 @@ TEST(CompareCommand, IncomparableImagesAreErrors) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // A temporary folder with its own cache.
@@ -173,4 +173,4 @@ TEST_F(Converge, RefusesInvalidOptions) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush_json;
@@ -255,4 +255,4 @@ TEST(RenderDenoised, PicturesShowItAndCompareSeesTheLayer) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

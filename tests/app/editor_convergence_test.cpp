@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Kind = ConvergencePoint::Kind;
@@ -278,4 +278,4 @@ TEST(RunName, NamesTheEdit) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // Blocks the importing thread at its first wake(), so that the preview can be checked.
@@ -134,4 +134,4 @@ TEST(EditorFiles, AnotherFileReplacesThePreview) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

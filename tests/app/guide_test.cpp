@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::TemporaryFolder;
@@ -61,4 +61,4 @@ TEST(Guide, ReportsThatXdgOpenIsMissing) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush_json;
@@ -53,4 +53,4 @@ TEST(InfoCommand, ComparesTheKernelWithTheFullKernel) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sys/wait.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Finished;
@@ -191,4 +191,4 @@ TEST(Said, ComparedPixelsThatAreNotFinite) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush;
@@ -186,4 +186,4 @@ TEST(Merge, RefusesImagesOfDifferentRenders) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

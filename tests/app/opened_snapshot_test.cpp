@@ -10,7 +10,7 @@
 
 #include <fstream>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::TemporaryFolder;
@@ -124,4 +124,4 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

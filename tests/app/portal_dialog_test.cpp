@@ -16,7 +16,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Outcome = PortalAnswer::Outcome;
@@ -234,4 +234,4 @@ TEST_F(PortalDialog, ReplacesTheFileBrowser) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(Progress, DurationsAreReadable) {
@@ -28,4 +28,4 @@ TEST(Progress, ShowsHundredPercentOnlyAtTheEnd) {
 TEST(Progress, FitsIntoTheTerminal) { EXPECT_EQ(progress_bar(0.5, 10, "a very long note", 30).size(), 30u); }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr int64_t plenty = 1'000'000;
@@ -121,4 +121,4 @@ TEST(RenderLoop, ChecksTheErrorAtFixedSampleCounts) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

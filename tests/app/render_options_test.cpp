@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 RenderOptions parsed(std::vector<std::string> arguments) {
@@ -217,4 +217,4 @@ TEST(Layers, TheFilmHoldsOnlyWhatTheyNeed) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numeric>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::blush_json;
@@ -358,4 +358,4 @@ TEST(Render, EveryShippedSceneRenders) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -148,4 +148,4 @@ TEST(Overrides, EnvironmentMapsAreRead) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

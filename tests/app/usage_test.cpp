@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Finished;
@@ -81,4 +81,4 @@ TEST(Usage, FailuresExitWithOneAndNameTheFile) {
 TEST(Usage, HostileNamesStayOnOneLine) { EXPECT_TRUE(refused(1, {"info", "two\nlines\033[2J.gltf"}, "two lines")); }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

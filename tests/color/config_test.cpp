@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // A folder for one test's configs, removed with it.
@@ -186,4 +186,4 @@ TEST_F(ConfigFiles, WorkingSpaceIsFoundInOtherConfigs) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -185,4 +185,4 @@ TEST(Illuminance, IsPiTimesRadianceOverAlbedo) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 const std::vector<std::string> all_displays{"sRGB", "Rec.1886", "Display P3"};
@@ -141,4 +141,4 @@ TEST(Shader, EveryDisplayAndViewHasOne) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,8 +5,9 @@
 
 #include <random>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -144,3 +145,5 @@ TEST(Distribution, LanesEqualOnePathBitForBit) {
         }
     }
 }
+
+} // namespace blush::TEST_FILE

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <sys/resource.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Floats = GeometryArray<float>;
@@ -108,4 +108,4 @@ TEST(NumberedArraysDeathTest, NoRangesWithoutAddressSpace) {
 #endif
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

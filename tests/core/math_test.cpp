@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-using namespace blush;
+namespace blush::TEST_FILE {
 
 namespace {
 
@@ -133,3 +133,5 @@ TEST(Math, MinAndMaxTakeTheSecondOfNaNInEveryLane) {
         EXPECT_EQ(lane(max(Wide(nan), Wide(2.f)), i), 2.f);
     }
 }
+
+} // namespace blush::TEST_FILE

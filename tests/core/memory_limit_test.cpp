@@ -5,7 +5,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ TEST(MemoryLimit, IsKnownHere) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

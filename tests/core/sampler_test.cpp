@@ -5,8 +5,9 @@
 
 #include <random>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -184,3 +185,5 @@ TEST(Sampler, LanesEqualOnePathBitForBit) {
         }
     }
 }
+
+} // namespace blush::TEST_FILE

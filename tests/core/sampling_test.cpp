@@ -5,8 +5,9 @@
 
 #include <random>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -105,3 +106,5 @@ TEST(Sampling, PowerHeuristicWeightsSumToOne) {
         }
     }
 }
+
+} // namespace blush::TEST_FILE

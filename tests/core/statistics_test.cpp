@@ -3,8 +3,9 @@
 
 #include <random>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 TEST(Statistics, PValuesMatchTabulatedQuantiles) {
     EXPECT_NEAR(normal_p(1.959963985), 0.05, 1e-9);
@@ -57,3 +58,5 @@ TEST(Statistics, ChiSquaredSeesAWrongDensityAndAWrongIntegral) {
     EXPECT_FALSE(directions_follow({}, uniform, [&](const Vec3&) { return density * 0.99; }));
     EXPECT_FALSE(directions_follow({}, uniform, [&](const Vec3&) { return density * 1.01; }));
 }
+
+} // namespace blush::TEST_FILE

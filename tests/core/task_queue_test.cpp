@@ -15,7 +15,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 void pause_a_little() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
@@ -118,4 +118,4 @@ TEST(TaskQueue, InheritTheFloatingPointMode) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Corpus {
@@ -40,4 +40,4 @@ INSTANTIATE_TEST_SUITE_P(, FuzzCorpus,
                          [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // The part that JSON can store: pixels are those of the import.
@@ -198,4 +198,4 @@ TEST(SceneEdits, IesProfilesAreStoredAsFileNames) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 TEST(EnvironmentImage, EightBitFilesBecomeLinear) {
@@ -40,4 +40,4 @@ TEST(EnvironmentImage, GreyBecomesRgbAndInvalidValuesAreKept) {
 TEST(EnvironmentImage, MissingFilesAreErrors) { EXPECT_FALSE(read_environment_image("none.exr")); }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

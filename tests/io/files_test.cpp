@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 std::string text_of(const std::filesystem::path& file) {
@@ -81,4 +81,4 @@ TEST(Files, TemporaryFilesOfKilledProcessesAreRemoved) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

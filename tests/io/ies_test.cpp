@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct Photometry {
@@ -213,4 +213,4 @@ TEST(Ies, ShippedFilesAreRead) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

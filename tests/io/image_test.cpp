@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 std::string bytes_of(const std::filesystem::path& file) {
@@ -187,4 +187,4 @@ TEST(JpegEnd, ThumbnailsDoNotCount) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // A room with a lamp on a stand and a vase. `shift` records of each kind are added first, so that ids differ.
@@ -182,4 +182,4 @@ TEST(MergeEdits, LeaveNoDanglingReferences) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 RenderSettings unusual_settings() {
@@ -103,4 +103,4 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 TEST(Sidecar, RoundTrips) {
@@ -140,4 +140,4 @@ TEST(Sidecar, DamagedFilesAreErrors) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

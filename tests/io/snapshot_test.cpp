@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Planes {
@@ -190,4 +190,4 @@ TEST(Snapshot, AFileOfTooManyPixelsIsRefusedUnread) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

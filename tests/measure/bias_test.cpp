@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -202,4 +202,4 @@ TEST(BiasTest, DifferentSizesGiveAnEmptyResult) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(BounceEnergy, IsTheMeanAndItsShareOfLuminance) {
@@ -27,4 +27,4 @@ TEST(BounceEnergy, OfABlackImageOrOneWithoutPlanes) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Kind = ConvergencePoint::Kind;
@@ -76,4 +76,4 @@ TEST(ConvergenceCsv, RefusesInvalidTables) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Kind = ConvergencePoint::Kind;
@@ -149,4 +149,4 @@ TEST(ConvergencePlot, HasACurveForEachKindOfEachShownRunAndTheGuide) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

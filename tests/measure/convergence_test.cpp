@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -185,4 +185,4 @@ TEST(DoublingTimes, AreDueWheneverTimeHasDoubled) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct Printed {
@@ -49,4 +49,4 @@ TEST(FlipGolden, AgreesWithTheToolOfItsAuthors) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

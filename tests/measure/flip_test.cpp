@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::constant_image;
@@ -295,4 +295,4 @@ TEST(FlipNumbers, ConstantMapsHaveEqualQuartiles) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

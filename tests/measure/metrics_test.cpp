@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::constant_image;
@@ -108,4 +108,4 @@ TEST(Compare, DoesNotDependOnThreads) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -123,4 +123,4 @@ TEST(PictureError, LeavesOutWhatIsNotFinite) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 size_t count_of(const std::string& text, const std::string& part) {
@@ -163,4 +163,4 @@ TEST(PlotLayout, PicksTheNearestPoint) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

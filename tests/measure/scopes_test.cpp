@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -103,4 +103,4 @@ TEST(ValueStatistics, IsAccurateForSmallDifferencesOfLargeValues) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -2,7 +2,7 @@
 #include "core/math.h"
 #include "tests/render/reference_scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -45,4 +45,4 @@ TEST(References, SmallErrorsAreDetected) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 Frame picture(const Project& project) {
@@ -235,4 +235,4 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -14,7 +14,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace blush::stability {
+namespace blush::stability::TEST_FILE {
 namespace {
 
 // ---- the verdict
@@ -200,4 +200,4 @@ TEST(RunBattery, StopsWhenAsked) {
 }
 
 } // namespace
-} // namespace blush::stability
+} // namespace blush::stability::TEST_FILE

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -258,4 +258,4 @@ TEST(Diff, IsSymmetric) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct Chromaticity {
@@ -93,4 +93,4 @@ TEST(TemperatureOf, InvertsBlackBodyColor) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

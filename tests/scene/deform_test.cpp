@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float half_sqrt2 = 0.70710678f;
@@ -183,4 +183,4 @@ TEST(Deformation, MissingJointsAreHandled) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

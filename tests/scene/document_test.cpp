@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -250,4 +250,4 @@ TEST(Document, EveryKindOfEditHasALabel) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -196,4 +196,4 @@ TEST(Subtree, ListsParentsBeforeChildren) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

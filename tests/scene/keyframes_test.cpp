@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Interpolation = Keyframes::Interpolation;
@@ -84,4 +84,4 @@ TEST(Keyframes, OfEqualTimesTheLastCounts) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 void expect_near(const Vec3d& got, const Vec3d& wanted, double tolerance = 1e-6) {
@@ -82,4 +82,4 @@ TEST(PictureRegions, AreWholePixels) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 GeometryPtr box(const Vec3& half) {
@@ -208,4 +208,4 @@ TEST(LightRig, HasNames) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

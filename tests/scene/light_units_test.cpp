@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -117,4 +117,4 @@ TEST(LightUnits, ResizingKeepsThePowerIfAsked) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

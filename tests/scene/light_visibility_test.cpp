@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct TwoLamps {
@@ -123,4 +123,4 @@ TEST(Shining, TheEnvironmentMayBeSolo) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

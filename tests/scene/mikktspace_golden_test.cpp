@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Golden {
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Meshes, MikktspaceGolden,
                          [](const auto& mesh) { return std::string(mesh.param.name); });
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

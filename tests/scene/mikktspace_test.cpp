@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
@@ -172,4 +172,4 @@ TEST(GltfTangents, GeneratedTangentsCanBeRemoved) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 Scene with_material(const Material& material) {
@@ -58,4 +58,4 @@ TEST(Untextured, UntexturedMaterialsAreUnchanged) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

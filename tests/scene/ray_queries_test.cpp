@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // Squares across the x axis, 2 m wide, each on a node of its own.
@@ -86,4 +86,4 @@ TEST(LineOfSight, TransmissionAndAlphaDoNotOcclude) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

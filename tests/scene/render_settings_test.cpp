@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(SameImage, OnlyStopRulesMayDiffer) {
@@ -103,4 +103,4 @@ TEST(Clamp, IsParsedAndPrinted) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -132,4 +132,4 @@ TEST(SceneSelection, OfSeveralScenesTheChosenOneShows) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -163,4 +163,4 @@ TEST(SkySun, TurnsAndScalesWithTheEnvironment) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Names = Table<std::string>;
@@ -66,4 +66,4 @@ TEST(Table, WritesToAbsentRecordsAreRefused) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

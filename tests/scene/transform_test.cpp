@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::Sample;
@@ -243,4 +243,4 @@ TEST(ViewThrough, WithoutACameraTheViewStays) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

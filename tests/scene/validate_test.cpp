@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -141,4 +141,4 @@ TEST(Validate, HoldsThroughRandomEdits) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -8,8 +8,9 @@
 #include <random>
 #include <vector>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -87,3 +88,5 @@ TEST(CausticGuide, NoGuidingFromInsideBelowTheHorizonOrWithoutCasters) {
     EXPECT_EQ(near.share, max_guided_share);
     EXPECT_EQ(guided_pdf<float>({&below, 1}, caustic_guide_at<float>({&below, 1}, {0, 0, 0}, up, true), up, 0.25f), 0.25f);
 }
+
+} // namespace blush::TEST_FILE

@@ -2,8 +2,9 @@
 #include "tests/shading/reference.h"
 #include "tests/support/statistics.h"
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -208,3 +209,5 @@ TEST(Albedo, IsTheColorOfSimpleMaterials) {
             EXPECT_TRUE(a.x >= 0 && a.x <= 1 && a.y >= 0 && a.y <= 1 && a.z >= 0 && a.z <= 1) << describe(m, v);
         }
 }
+
+} // namespace blush::TEST_FILE

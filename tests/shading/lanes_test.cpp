@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace blush;
+namespace blush::TEST_FILE {
 
 namespace {
 
@@ -190,3 +190,5 @@ TEST(Lanes, EqualOnePathBitForBit) {
     expect_lanes_equal_one_path<all_features>(nullptr);
     expect_lanes_equal_one_path<all_features>(&energy);
 }
+
+} // namespace blush::TEST_FILE

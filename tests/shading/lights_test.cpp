@@ -5,8 +5,9 @@
 
 #include <random>
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -54,3 +55,5 @@ TEST(SphereLight, ConeIsItsSolidAngle) {
     EXPECT_EQ(sphere_cone_height<float>(0.9f, 1.f), 0.f) << "from within";
     EXPECT_EQ(sphere_cone_height<float>(0.f, 1.f), 0.f) << "from the centre";
 }
+
+} // namespace blush::TEST_FILE

@@ -2,8 +2,9 @@
 #include "tests/shading/reference.h"
 #include "tests/support/statistics.h"
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -243,3 +244,5 @@ TEST(Model, NarrowLobesContinueIntoDeltas) {
         EXPECT_LT(far, 100); // beyond 50 alpha of slope GGX has 1 / 2500 of its facets
     }
 }
+
+} // namespace blush::TEST_FILE

@@ -2,8 +2,9 @@
 #include "tests/shading/reference.h"
 #include "tests/support/statistics.h"
 
-using namespace blush;
-using namespace blush::statistics;
+namespace blush::TEST_FILE {
+
+using namespace statistics;
 
 namespace {
 
@@ -203,3 +204,5 @@ TEST(Sampling, ExtremeParametersNeverMakeNaN) {
         ASSERT_TRUE(is_finite(value.f_cos) && is_finite(value.pdf));
     }
 }
+
+} // namespace blush::TEST_FILE

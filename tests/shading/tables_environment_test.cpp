@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double exact_pi = std::numbers::pi;
@@ -451,4 +451,4 @@ TEST(EnvironmentTable, ParametersChangeWithoutTheMap) {
     EXPECT_EQ(table.column_guides, fresh.column_guides);
 }
 
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 
 namespace isa_v2 {
 void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
@@ -125,4 +125,4 @@ TEST(ShadingTables, EveryInstructionSetGivesTheSameBits) {
     }
 }
 
-} // namespace blush
+} // namespace blush::TEST_FILE

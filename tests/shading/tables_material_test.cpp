@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -481,4 +481,4 @@ TEST(MaterialTable, NewTexturesOrMaterialsRequireANewTable) {
     EXPECT_FALSE(update_material(table, scene, id));
 }
 
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(Half, EveryValueRoundTrips) {
@@ -159,4 +159,4 @@ TEST(TextureFilter, AnyFootprintReadsTexels) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -339,4 +339,4 @@ TEST(TextureTable, ImagesOfInconsistentSizeAreWhite) {
     EXPECT_FALSE(textured.table.textures.warnings.empty());
 }
 
-} // namespace blush
+} // namespace blush::TEST_FILE

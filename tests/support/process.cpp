@@ -12,17 +12,17 @@
 namespace blush::test {
 namespace {
 
-struct Channel {
+struct Stream {
     int read_end = -1, write_end = -1;
 };
 
-Channel open_pipe() {
+Stream open_pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     return {ends[0], ends[1]};
 }
 
-Channel open_terminal() {
+Stream open_terminal() {
     int leader = -1, follower = -1;
     if (openpty(&leader, &follower, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no terminal");
     fcntl(leader, F_SETFD, FD_CLOEXEC);
@@ -62,7 +62,7 @@ bool terminals_exist() {
 }
 
 Finished run(const std::vector<std::string>& command, const RunOptions& options) {
-    const Channel out = open_pipe(), err = options.stderr_is_terminal ? open_terminal() : open_pipe();
+    const Stream out = open_pipe(), err = options.stderr_is_terminal ? open_terminal() : open_pipe();
     const pid_t pid = fork();
     if (pid < 0) throw std::runtime_error("no process");
     if (pid == 0) become(command, out.write_end, err.write_end);

@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -356,4 +356,4 @@ TEST(GltfMotion, DuplicatesAreAnimated) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

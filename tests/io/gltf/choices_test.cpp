@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 ImportedScene imported(const GltfBuilder& builder) {
@@ -149,4 +149,4 @@ TEST(GltfVariants, BrokenMappingsAreReported) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

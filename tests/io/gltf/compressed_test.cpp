@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Corner = std::array<float, 8>; // position, normal, texture coordinates
@@ -220,4 +220,4 @@ TEST(CompressedGltf, RefusesImpossibleSizes) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

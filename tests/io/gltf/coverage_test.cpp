@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Row {
@@ -113,4 +113,4 @@ TEST(GltfCoverage, ExtensionsAreReportedAsTheTableSays) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <fmt/format.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // Meshes of many sizes, compressed alternately by both libraries, one with an invalid attribute id.
@@ -115,4 +115,4 @@ TEST(GltfUnpacking, DecompressedSizeIsLimited) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 const Geometry& only_geometry(const Scene& scene) { return *scene.meshes.begin()->value.parts.at(0).geometry; }
@@ -173,4 +173,4 @@ TEST(GltfGeometry, UnknownAttributesAreReported) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

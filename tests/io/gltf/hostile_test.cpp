@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 GltfBuilder triangle() {
@@ -285,4 +285,4 @@ TEST(ResolveUri, KeepsToTheFolder) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <thread>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // 2 x 1 pixels, red and green, without loss.
@@ -166,4 +166,4 @@ TEST(ImageShrinker, KeepsTheMeanOfAnySize) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

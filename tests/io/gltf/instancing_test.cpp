@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr const char* extension = "EXT_mesh_gpu_instancing";
@@ -179,4 +179,4 @@ TEST(GltfInstancing, EditsAsJsonListThemAsLeftOut) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

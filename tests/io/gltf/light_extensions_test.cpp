@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // Saves over another file of the same folder and reads that.
@@ -318,4 +318,4 @@ TEST(ImageLight, HostileImagesAreReported) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

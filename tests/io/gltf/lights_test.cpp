@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 void add_light(GltfBuilder& b, Json light) {
@@ -105,4 +105,4 @@ TEST(GltfEnvironment, MissingImageIsAWarningAndOneOutsideAnError) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

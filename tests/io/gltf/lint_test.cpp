@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // Location of the diagnostic that contains `part`, or "none".
@@ -137,4 +137,4 @@ TEST(GltfSuspicions, DataMarkedAsSrgb) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

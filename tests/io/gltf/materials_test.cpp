@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // The material of a file that has only that one.
@@ -181,4 +181,4 @@ TEST(GltfMaterials, PrimitivesReferToThem) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

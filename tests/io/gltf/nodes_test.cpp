@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 TEST(GltfNodes, HierarchyAndTransformsAreKept) {
@@ -155,4 +155,4 @@ TEST(GltfImport, TextAndBinaryFormsGiveTheSameScene) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

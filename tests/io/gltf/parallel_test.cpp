@@ -12,7 +12,7 @@
 #include <cstring>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 std::string noisy_png(int side, unsigned seed) {
@@ -254,4 +254,4 @@ TEST(GltfParallel, CancelledWhileTexturesAreMissing) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

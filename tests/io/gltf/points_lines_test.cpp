@@ -11,7 +11,7 @@
 #include <limits>
 #include <map>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // The corner of a cube and its three neighbours: a diagonal of 500, so that solids have a radius of 1.
@@ -97,4 +97,4 @@ TEST(GltfPointsLines, SkippedPointsAndLinesAreCounted) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Exception {
@@ -112,4 +112,4 @@ TEST(GltfVerdicts, ValidFilesAreReadWithoutWarnings) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // Compares every record and field; triangles and pixels by value.
@@ -313,4 +313,4 @@ TEST(GltfSaveFiles, CopiesIesProfiles) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 std::string file_bytes(const std::filesystem::path& file) {
@@ -261,4 +261,4 @@ TEST(GltfTangents, DegenerateUvsGiveAPerpendicular) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 TEST(GltfValidator, SavingAddsNoMessages) {
@@ -46,4 +46,4 @@ TEST(GltfValidator, SavingAddsNoMessages) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

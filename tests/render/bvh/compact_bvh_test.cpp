@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // A bumpy sheet of 2 n^2 triangles over [-1, 1]^2.
@@ -96,4 +96,4 @@ TEST(CompactTree, IsNotUsedIfMemorySuffices) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

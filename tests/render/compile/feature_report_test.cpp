@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Compiled {
@@ -246,4 +246,4 @@ TEST(FeatureReport, CostsAreFormattedWithUnits) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

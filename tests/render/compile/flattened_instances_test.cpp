@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
@@ -257,4 +257,4 @@ TEST(Flattened, NonFiniteRaysMiss) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
@@ -170,4 +170,4 @@ TEST(Copies, HaveBoundsAndBlockTheLineOfSight) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

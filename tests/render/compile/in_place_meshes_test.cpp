@@ -6,7 +6,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr PlaneSet planes{.albedo = true, .normal = true, .depth = true, .ids = true};
@@ -130,4 +130,4 @@ TEST(Placed, AreNotCopied) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

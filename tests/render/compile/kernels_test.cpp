@@ -9,7 +9,7 @@
 #include <cstring>
 #include <memory>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr int size = 24, samples = 4;
@@ -226,4 +226,4 @@ TEST(Kernels, TheSmallestSufficientOneIsChosen) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

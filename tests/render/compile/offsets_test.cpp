@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float lux = 3, albedo = 0.8f;
@@ -142,4 +142,4 @@ TEST(Offsets, ClosedRoomsAreDarkEverywhere) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

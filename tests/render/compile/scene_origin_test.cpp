@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 Bounds box(const Vec3d& centre, double half) {
@@ -112,4 +112,4 @@ TEST(PathLog, PrintsWorldCoordinates) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 bool all_good(const Denoised& made) {
@@ -198,4 +198,4 @@ TEST(Denoiser, NeedsItsWeightsOnlyWhenCalled) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace denoise;
@@ -57,4 +57,4 @@ TEST(Inspection, CountsInvalidPixelsAndKeepsTheMeanFinite) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Golden {
@@ -58,4 +58,4 @@ INSTANTIATE_TEST_SUITE_P(Networks, GoldenTest,
                          [](const auto& golden_case) { return std::string(golden_case.param.network); });
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

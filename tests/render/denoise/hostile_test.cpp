@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
@@ -133,4 +133,4 @@ TEST(DenoiserHostile, DamagedWeightsAreAnError) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

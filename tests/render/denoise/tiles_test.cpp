@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace denoise;
@@ -56,4 +56,4 @@ TEST(Tiles, NoneIfNotEvenTheSmallestFits) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace denoise;
@@ -104,4 +104,4 @@ TEST(Bfloat16, TwoPartsHoldSixteenBits) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace denoise;
@@ -61,4 +61,4 @@ TEST(UnetPlan, SharesMemory) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

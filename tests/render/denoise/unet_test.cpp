@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace denoise;
@@ -191,4 +191,4 @@ TEST(Unet, MatchesTheNetworkOfPlainSums) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

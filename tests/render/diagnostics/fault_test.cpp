@@ -3,7 +3,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
@@ -125,4 +125,4 @@ TEST(Fault, DoesNotPoisonTheErrorEstimate) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

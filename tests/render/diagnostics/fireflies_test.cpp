@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 RenderSettings settings() { return settings_for(48, 32, 16); }
@@ -70,4 +70,4 @@ TEST(Fireflies, AreAbsentFromAnImageWithoutNoise) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

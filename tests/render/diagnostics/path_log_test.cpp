@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // The numbers in the last line.
@@ -69,4 +69,4 @@ TEST(PathLog, PrintsTheSurvivalProbability) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -3,7 +3,7 @@
 #include "tests/render/reference_scenes.h"
 #include "tests/support/error_coverage.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -81,4 +81,4 @@ TEST(ErrorCoverage, IntervalsHaveTheirNominalCoverageWithTheRecommendedSettings)
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

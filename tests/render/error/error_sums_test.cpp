@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // Two noisy halves of an image that gets brighter to the right; every seventh pixel has samples in one half only.
@@ -161,4 +161,4 @@ TEST(ErrorEstimate, CorrelatedPixelErrorsWidenTheInterval) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -282,4 +282,4 @@ TEST(Adaptive, KeepsCoverage) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::sidak;
@@ -112,4 +112,4 @@ TEST(BouncePlanes, DoNotChangeTheBeautyAndAreDeterministic) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

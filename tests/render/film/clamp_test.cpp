@@ -2,7 +2,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Rendered {
@@ -73,4 +73,4 @@ TEST(Clamp, DoesNotDependOnThreads) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -3,7 +3,7 @@
 #include "tests/render/scenes.h"
 #include "tests/support/pictures.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 // Renders samples [0, ends[0]), [ends[0], ends[1]), ...
@@ -115,4 +115,4 @@ TEST(Determinism, AStoppedRenderReturnsFalse) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -5,7 +5,7 @@
 #include <memory>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -196,4 +196,4 @@ TEST(ErrorEstimate, StandardErrorIsThatOfTheMean) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -2,7 +2,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 Frame render(const Scene& scene, const RenderSettings& settings, int divider = 1) {
@@ -81,4 +81,4 @@ TEST(RenderRegion, SetAndResetMatchesAFreshRenderer) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr int64_t pilot = SampleAllocation::pilot_samples;
@@ -102,4 +102,4 @@ TEST(SampleAllocation, SamplesLeftOverByTheLimitsAreDistributed) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float plate_half = 0.25f, plate_height = 1, lamp_height = 2;
@@ -261,4 +261,4 @@ TEST(ShadowCatcher, SwitchedOnAndOffKeepsTheImage) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr float expected = 0.7f * 0.9f * 12.f;
@@ -61,4 +61,4 @@ TEST(Arithmetic, APathOverTwoDiffuseSurfaces) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

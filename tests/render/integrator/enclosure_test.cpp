@@ -2,7 +2,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -66,4 +66,4 @@ TEST(Enclosure, BouncesAddUpTermByTerm) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

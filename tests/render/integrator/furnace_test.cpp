@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -161,4 +161,4 @@ TEST(Furnace, PlasticReflectsTheIntegralOfItsFormula) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

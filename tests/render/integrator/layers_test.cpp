@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -196,4 +196,4 @@ TEST(Dispersion, IndicesAreThoseOfTheAbbeNumber) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -146,4 +146,4 @@ TEST(LightMeter, FollowsEdits) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

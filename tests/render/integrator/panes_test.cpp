@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::sidak;
@@ -176,4 +176,4 @@ TEST(Panes, AreShownByFirstHitPlanes) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::Moments;
@@ -297,4 +297,4 @@ TEST(PathReuse, MeasuresTheErrorCorrelation) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr int size = 4;
@@ -130,4 +130,4 @@ TEST(ReuseWeights, WrongOnesAreCaught) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

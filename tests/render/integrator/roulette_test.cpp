@@ -3,7 +3,7 @@
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::Moments;
@@ -131,4 +131,4 @@ TEST(Trials, HaveMeanAndStandardError) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -2,7 +2,7 @@
 #include "core/math.h"
 #include "tests/render/irradiance.h"
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -179,4 +179,4 @@ TEST(Absorption, InAPaneThatReflects) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 constexpr Vec3 bright{0.9f, 0.3f, 0.1f}, dark{0.1f, 0.5f, 0.8f}; // encoded
@@ -95,4 +95,4 @@ TEST(TextureFilter, WorksBehindFlatMirrorsOnly) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

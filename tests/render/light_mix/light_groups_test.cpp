@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Grouping = LightMix::Grouping;
@@ -141,4 +141,4 @@ TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using Grouping = LightMix::Grouping;
@@ -328,4 +328,4 @@ TEST(BakeMix, DoesNothingWithoutGroups) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

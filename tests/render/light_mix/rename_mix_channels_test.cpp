@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 struct Carried : Studio {
@@ -91,4 +91,4 @@ TEST(CarriedMix, KnowsGroupsThatShareAPlane) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -9,7 +9,7 @@
 #include <array>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::sidak;
@@ -136,4 +136,4 @@ TEST(AlphaOfEmitters, ScalesSelectionProbabilities) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

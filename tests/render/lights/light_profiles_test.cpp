@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -274,4 +274,4 @@ TEST(Backdrop, IsSeenAndLightsNothing) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

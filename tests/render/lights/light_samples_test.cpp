@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -199,4 +199,4 @@ TEST(LightSamples, OfTheSkyFollowItsRadiance) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

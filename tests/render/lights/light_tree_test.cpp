@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -193,4 +193,4 @@ TEST(LightTree, PicturesOfTenThousandLightsAreNearTheOracle) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

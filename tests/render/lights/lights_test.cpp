@@ -10,7 +10,7 @@
 #include <map>
 #include <numbers>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
@@ -262,4 +262,4 @@ TEST(DiskLight, AnyNumberIsBoundedInMemory) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 using statistics::sidak;
@@ -174,4 +174,4 @@ TEST(ShadowLinks, WarnIfThereAreTooMany) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush::test {
+namespace blush::test::TEST_FILE {
 namespace {
 
 Light lamp(Light::Kind kind, float size) {
@@ -77,4 +77,4 @@ TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
 }
 
 } // namespace
-} // namespace blush::test
+} // namespace blush::test::TEST_FILE

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // `count` instances behind each other, black with opacity 1/2, under a white sky.
@@ -57,4 +57,4 @@ TEST(AlphaInstances, TransmitLightIndependently) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

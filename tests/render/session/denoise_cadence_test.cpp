@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Source = DenoiseCadence::Source;
@@ -188,4 +188,4 @@ TEST(DenoiseCadence, ADenoisedImageOfAnOlderImageDoesNotCount) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -15,7 +15,7 @@
 #include <new>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using State = SessionStatus::State;
@@ -428,4 +428,4 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

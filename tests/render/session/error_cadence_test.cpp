@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double pixels = 1e6, estimate_seconds = 0.01, sample_seconds = 0.1;
@@ -78,4 +78,4 @@ TEST(ErrorCadence, ANewImageRestartsAndKeepsTheMeasuredCost) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

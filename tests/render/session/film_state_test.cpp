@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using State = SessionStatus::State;
@@ -317,4 +317,4 @@ TEST(SessionFilm, SurvivesASubmissionThatReplacesThePendingOne) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr int width = 4, height = 3, samples = 6;
@@ -73,4 +73,4 @@ TEST(FilmBatches, DoNotChangeItsSums) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(FramePool, AFrameIsRecycledWhenItsLastReferenceIsDropped) {
@@ -85,4 +85,4 @@ TEST(FramePool, ReadersFinishBeforeAFrameIsRewritten) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

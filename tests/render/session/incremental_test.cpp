@@ -14,7 +14,7 @@
 #include <array>
 #include <set>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::all_planes;
@@ -292,4 +292,4 @@ TEST(Renderer, AStoppedPassStopsAndLeavesNoTraceAfterClearing) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

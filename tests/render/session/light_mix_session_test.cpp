@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using State = SessionStatus::State;
@@ -142,4 +142,4 @@ TEST(SessionMix, StaysDenoised) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

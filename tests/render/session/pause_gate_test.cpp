@@ -10,7 +10,7 @@
 #include <chrono>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using namespace std::chrono_literals;
@@ -156,4 +156,4 @@ TEST(StandingAside, CanBeDestroyed) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using State = SessionStatus::State;
@@ -68,4 +68,4 @@ TEST(PlaneSet, CoversItsSubsets) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

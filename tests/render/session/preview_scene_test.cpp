@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 RenderSettings small() {
@@ -40,4 +40,4 @@ TEST(Untextured, IsReplacedByTheTexturedScene) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 FramePtr frame() { return std::make_shared<const Frame>(); }
@@ -84,4 +84,4 @@ TEST(PublishedFrames, ADragFasterThanTheDenoiserStillShowsSomething) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

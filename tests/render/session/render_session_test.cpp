@@ -13,7 +13,7 @@
 #include <map>
 #include <thread>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using State = SessionStatus::State;
@@ -442,4 +442,4 @@ TEST(RenderSession, TheResolutionScaleMultipliesTheSize) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // A machine with a constant time per sample, whose error falls as 1 / samples.
@@ -318,4 +318,4 @@ TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 
 #include <ostream>
 
-namespace blush {
+namespace blush::TEST_FILE {
 
 void PrintTo(const UpdatePlan& p, std::ostream* out) {
     const auto say = [&](bool set, const char* name) { *out << (set ? name : ""); };
@@ -282,4 +282,4 @@ TEST_F(EditCost, OrbitingAboutAnotherPointIsNoChange) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

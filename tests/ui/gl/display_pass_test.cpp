@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr int width = 96, height = 48;
@@ -118,4 +118,4 @@ TEST_F(DisplayPassTest, FalseColoursMatchFiles) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

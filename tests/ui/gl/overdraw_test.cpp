@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr int width = 120, height = 90;
@@ -140,4 +140,4 @@ TEST_F(Overdraw, CallbacksStay) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

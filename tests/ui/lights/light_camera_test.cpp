@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct Lamp {
@@ -86,4 +86,4 @@ TEST(LookThrough, ViewPositionIsOutsideTheLight) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 View view_from(const Vec3d& eye) {
@@ -187,4 +187,4 @@ TEST(LightOutline, ConeHasItsAngle) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

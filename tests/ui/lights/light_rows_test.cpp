@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 struct Studio {
@@ -144,4 +144,4 @@ TEST(LightRows, GroupsCanBeJoinedLeftAndRenamed) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

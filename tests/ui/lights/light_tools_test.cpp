@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr Light::Kind kinds[] = {Light::Kind::point,     Light::Kind::spot, Light::Kind::sun,
@@ -222,4 +222,4 @@ TEST(TurnedTo, PointsThereAndKeepsTheRoll) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

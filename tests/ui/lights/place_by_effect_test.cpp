@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double close = 1e-5;
@@ -131,4 +131,4 @@ TEST(EnvironmentDial, ShowsDirectionsFromAbove) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Ids = std::vector<Id<Node>>;
@@ -173,4 +173,4 @@ TEST(TurnedSurroundings, FollowTheMouse) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

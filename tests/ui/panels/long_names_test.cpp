@@ -22,7 +22,7 @@
 #include <imgui_internal.h> // the stack of popups
 #include <set>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 std::string long_name(const char* what, size_t i = 0) {
@@ -415,4 +415,4 @@ TEST_F(LongNames, EveryPopupThatAClickOpens) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -16,7 +16,7 @@
 #include <iterator>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class Panels : public test::ImGuiTest {
@@ -407,4 +407,4 @@ TEST_F(Panels, EachHasAPageInTheGuide) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

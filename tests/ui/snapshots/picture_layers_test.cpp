@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Kind = PictureLayer::Kind;
@@ -143,4 +143,4 @@ TEST_F(PictureFile, InvalidFileIsOneError) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

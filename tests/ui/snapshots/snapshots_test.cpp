@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Mode = Comparison::Mode;
@@ -223,4 +223,4 @@ TEST(RestoreEdit, IsOneUndoStep) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

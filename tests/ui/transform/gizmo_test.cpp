@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double close = 1e-4;
@@ -174,4 +174,4 @@ TEST(Place, NodeUnderAParentOfScaleZeroStays) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

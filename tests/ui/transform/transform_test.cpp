@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double close = 1e-5;
@@ -340,4 +340,4 @@ TEST(Withdraw, RevertsOnlyTheStepOfItsGesture) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double close = 1e-5; // positions are floats of order one
@@ -147,4 +147,4 @@ TEST(Rotation, LookingAlongAnyDirection) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

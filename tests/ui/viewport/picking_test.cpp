@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // 2 x 2: only the lower right pixel has a hit, at 4 metres.
@@ -52,4 +52,4 @@ TEST(SeenPoint, IsOnTheRayAtItsDepth) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

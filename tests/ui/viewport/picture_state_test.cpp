@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using enum PictureState;
@@ -150,4 +150,4 @@ TEST(PictureState, AskedAgainEveryPictureEndsInFullResolution) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr Region region{100, 50, 800, 600};
@@ -82,4 +82,4 @@ TEST_F(PixelGrid, IsDrawnOnlyAtFullResolution) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

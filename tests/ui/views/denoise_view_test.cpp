@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Show = DenoiseView::Show;
@@ -84,4 +84,4 @@ TEST(DenoiseView, TextNamesThePictureAndItsDelay) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // A temporary folder, deleted with its files.
@@ -135,4 +135,4 @@ TEST(MapPreview, AveragesThePixels) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

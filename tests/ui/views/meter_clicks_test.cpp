@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -175,4 +175,4 @@ TEST_P(MeterClicks, MeasureTheClickedPoint) {
 INSTANTIATE_TEST_SUITE_P(Shipped, MeterClicks, testing::Values("card-and-mug", "cornell", "corridor", "furnace", "veach-mis"));
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

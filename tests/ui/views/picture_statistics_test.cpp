@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(Numbers, ZeroHasNoSign) {
@@ -173,4 +173,4 @@ TEST(PictureRectangles, AreTheSameFromEveryCornerAndWithinThePicture) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -4,7 +4,7 @@
 #include "tests/ui/shipped_ocio_config.h"
 #include "ui/panels/panels.h"
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class Time : public test::ImGuiTest {
@@ -83,4 +83,4 @@ TEST_F(Time, RestPoseCannotBePlayed) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

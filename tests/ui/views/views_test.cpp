@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Mode = BouncesView::Mode;
@@ -197,4 +197,4 @@ TEST(AovView, ListsPassesAndWhatTheyNeed) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class PlotDrawing : public test::ImGuiTest {
@@ -113,4 +113,4 @@ TEST(ConvergenceTexts, ShowUnknownValuesAsUnknown) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

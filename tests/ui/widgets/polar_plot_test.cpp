@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(PolarPlot, HasTheCandelaPerDirection) {
@@ -31,4 +31,4 @@ TEST(PolarPlot, HasTheCandelaPerDirection) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

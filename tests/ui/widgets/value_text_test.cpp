@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(ValueText, NumbersRoundTrip) {
@@ -53,4 +53,4 @@ TEST(ValueText, MessagesAreSanitised) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <imgui_internal.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class Widgets : public test::ImGuiTest {
@@ -345,4 +345,4 @@ TEST_F(Widgets, TypedValuesAreClamped) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

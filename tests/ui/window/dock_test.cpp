@@ -8,7 +8,7 @@
 
 #include <imgui_internal.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using Ids = std::vector<std::string>;
@@ -164,4 +164,4 @@ TEST_F(Docks, ReopenOnlyWithTheirScene) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class Files : public testing::Test {
@@ -144,4 +144,4 @@ TEST(BytesText, ThreeDigitsAtMost) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

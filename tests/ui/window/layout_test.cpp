@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(Layout, RegionsCoverTheWindowWithoutGapOrOverlap) {
@@ -136,4 +136,4 @@ TEST(FitAspect, IsTheLargestCentredRectangle) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

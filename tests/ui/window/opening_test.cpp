@@ -18,7 +18,7 @@
 #include <cmath>
 #include <unistd.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 // Objects on the left half, background on the right; both uniformly grey.
@@ -264,4 +264,4 @@ TEST(FilePlaces, ListsExistingFoldersOnce) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

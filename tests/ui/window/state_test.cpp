@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using namespace std::chrono_literals;
@@ -239,4 +239,4 @@ TEST(Automation, RejectsPartiallyValidSizes) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

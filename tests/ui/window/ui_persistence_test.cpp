@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 TEST(Remembered, PanelsRoundTrip) {
@@ -98,4 +98,4 @@ TEST(Remembered, OnlyTheLastScenesAreKept) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE
