@@ -1,5 +1,6 @@
 // The desktop's file dialog on a private session bus with a fake portal.
 #include "app/files/desktop_file_dialog.h"
+#include "tests/support/eventually.h"
 
 #include <sdbus-c++/sdbus-c++.h>
 
@@ -167,7 +168,7 @@ TEST_F(PortalDialog, CanBeCancelledByUserAndProgram) {
     EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::cancelled);
     portal.code.reset();
     std::thread canceller([&] {
-        while (portal.asked < 4) std::this_thread::yield();
+        EXPECT_TRUE(eventually([&] { return portal.asked >= 4; })) << "the portal is not asked";
         cancel = true;
     });
     EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::cancelled);
@@ -181,7 +182,7 @@ TEST_F(PortalDialog, WithoutAPortalReturnsNoPortal) {
     Portal portal;
     portal.code.reset();
     std::thread crash([&] {
-        while (portal.asked < 1) std::this_thread::yield();
+        EXPECT_TRUE(eventually([&] { return portal.asked >= 1; })) << "the portal is not asked";
         portal.vanish();
     });
     EXPECT_EQ(ask_portal({}, cancel).outcome, Outcome::no_portal) << "a portal that ends";

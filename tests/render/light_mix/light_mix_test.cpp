@@ -5,6 +5,7 @@
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/light_mix/bake_mix.h"
+#include "scene/affine.h"
 #include "tests/render/studio.h"
 
 #include <cmath>
@@ -13,8 +14,10 @@ namespace blush::test::TEST_FILE {
 namespace {
 
 using Grouping = LightMix::Grouping;
+using statistics::Moments;
 using statistics::sidak;
 using statistics::significance;
+using statistics::z_test;
 
 // A studio with a renderer that already has a few samples.
 struct RenderedStudio {
@@ -224,45 +227,6 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
 INSTANTIATE_TEST_SUITE_P(Lights, MixAim, testing::Values(false, true),
                          [](const auto& light) { return light.param ? "InATree" : "ByPower"; });
 
-// The error of a mix, estimated from the halves of the groups, is that of a fresh render of the same image; the prediction from
-// the variances of single groups is close to it.
-TEST(LightMix, PredictsItsNoise) {
-    const RenderSettings settings = settings_for(48, 48, 64);
-    Studio studio;
-    Renderer renderer({.threads = 2, .planes = {}});
-    renderer.update(studio.scene, settings);
-    renderer.render(0, 64);
-    const Frame before = renderer.resolve();
-    studio.channel("Bulb").intensity = 4;
-    studio.channel("Environment").intensity = 0.2f;
-    renderer.update(studio.scene, settings);
-    const Frame after = renderer.resolve();
-    ASSERT_TRUE(after.error.rmse_known);
-    EXPECT_NE(after.error.rmse, before.error.rmse);
-    const double predicted = predicted_rmse(before, after.gains);
-    EXPECT_NEAR(predicted / after.error.rmse, 1, 0.35) << "the prediction ignores the correlation of groups";
-    double energy = 0, noise = 0;
-    for (const GroupReport& r : report_groups(after, after.group_names, after.gains)) {
-        energy += r.energy;
-        noise += r.noise;
-    }
-    EXPECT_NEAR(energy, 1, 1e-9);
-    EXPECT_NEAR(noise, 1, 1e-9);
-    // Squared differences from a converged image of the same mix.
-    RenderSettings long_settings = settings;
-    long_settings.spp = 4096;
-    long_settings.seed = 99;
-    const Frame truth = render_frame(studio.scene, long_settings, 2);
-    double squares = 0;
-    for (size_t i = 0; i < truth.rgba.size(); i += 4)
-        for (size_t c = 0; c < 3; ++c) squares += std::pow(double(after.rgba[i + c]) - double(truth.rgba[i + c]), 2);
-    const double rmse = std::sqrt(squares / (3.0 * 48 * 48));
-    EXPECT_GT(rmse, after.error.rmse_low);
-    EXPECT_LT(rmse, after.error.rmse_high);
-}
-
-// ---- baking
-
 LightMix some_mix() {
     LightMix mix{.grouping = Grouping::by_light, .channels = {}};
     mix.channels.push_back({.group = "Bulb", .intensity = 3, .color = {1, 0.5f, 0.25f}});
@@ -271,6 +235,84 @@ LightMix some_mix() {
     mix.channels.push_back({.group = "Object 6", .intensity = 2});
     return mix;
 }
+
+// What two independent renders of one image say about the noise of a mix, as means over pixels and channels.
+struct NoiseOfPair {
+    double mix = 0, groups = 0; // variance of the mixed image; sum of the variances of its groups
+};
+NoiseOfPair noise_of_pair(const Frame& a, const Frame& b, const Gains& gains) {
+    NoiseOfPair noise;
+    const size_t pixels = a.groups[0].size();
+    for (size_t i = 0; i < pixels; ++i) {
+        Vec3d mix{0, 0, 0};
+        for (size_t k = 0; k < gains.size(); ++k) {
+            const Vec3d d = (to_double(a.groups[k][i]) - to_double(b.groups[k][i])) * to_double(gains[k]);
+            mix = mix + d;
+            noise.groups += dot(d, d);
+        }
+        noise.mix += dot(mix, mix);
+    }
+    // The variance of a difference is twice that of either.
+    const double values = 2.0 * 3 * double(pixels);
+    return {noise.mix / values, noise.groups / values};
+}
+
+// The error of a mix, estimated from the halves of the groups, is that of independent renders; the prediction is right about the
+// variances of single groups, and close to the error although it ignores their correlation.
+TEST(LightMix, PredictsItsNoise) {
+    constexpr int pairs = 16;
+    Studio studio;
+    Studio mixed = studio;
+    mixed.channel("Bulb").intensity = 4;
+    mixed.channel("Environment").intensity = 0.2f;
+    Moments own_error, of_groups, closeness; // one number for each pair
+    for (int pair = 0; pair < pairs; ++pair) {
+        Frame before[2], after[2];
+        double estimated = 0, growth = 0, close = 0; // means of the two renders
+        for (const int i : {0, 1}) {
+            RenderSettings settings = settings_for(48, 48, 64);
+            settings.seed = uint32_t(2 * pair + i);
+            Renderer renderer({.threads = 2, .planes = {}});
+            renderer.update(studio.scene, settings);
+            renderer.render(0, settings.spp);
+            before[i] = renderer.resolve();
+            EXPECT_FALSE(renderer.update(mixed.scene, settings)) << "the film is kept";
+            after[i] = renderer.resolve();
+            ASSERT_TRUE(after[i].error.rmse_known);
+            const double predicted = predicted_rmse(before[i], after[i].gains);
+            estimated += after[i].error.rmse * after[i].error.rmse / 2;
+            growth += std::pow(predicted / before[i].error.rmse, 2) / 2;
+            close += predicted / after[i].error.rmse / 2;
+        }
+        const NoiseOfPair then = noise_of_pair(before[0], before[1], before[0].gains),
+                          now = noise_of_pair(after[0], after[1], after[0].gains);
+        own_error.add(estimated - now.mix);
+        of_groups.add(growth * then.groups - now.groups);
+        closeness.add(close);
+    }
+    EXPECT_TRUE(z_test(own_error, 0)) << "error of the mix";
+    EXPECT_TRUE(z_test(of_groups, 0)) << "growth of the groups' variances";
+    // For these lights the prediction is 10 % too low: groups share paths, so their errors are correlated.
+    EXPECT_GT(closeness.mean - 3 * closeness.error(), 0.85);
+    EXPECT_LT(closeness.mean + 3 * closeness.error(), 1);
+}
+
+TEST(LightMix, ReportsSharesThatSumToOne) {
+    RenderedStudio rendered;
+    auto& [studio, settings, renderer] = rendered;
+    studio.scene.mix = some_mix();
+    renderer.update(studio.scene, settings);
+    const Frame frame = renderer.resolve();
+    double energy = 0, noise = 0;
+    for (const GroupReport& r : report_groups(frame, frame.group_names, frame.gains)) {
+        energy += r.energy;
+        noise += r.noise;
+    }
+    EXPECT_NEAR(energy, 1, 1e-9);
+    EXPECT_NEAR(noise, 1, 1e-9);
+}
+
+// ---- baking
 
 TEST(BakeMix, KeepsTheImageAndTheFilm) {
     RenderedStudio rendered;

@@ -2,6 +2,7 @@
 #include "render/session/render_session.h"
 
 #include "tests/render/session/recording_session.h"
+#include "tests/support/eventually.h"
 #include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
@@ -21,6 +22,7 @@ namespace {
 using State = SessionStatus::State;
 using test::checksum;
 using test::Event;
+using test::eventually;
 using test::fresh_picture;
 using test::RecordingSession;
 using test::same_picture;
@@ -71,7 +73,7 @@ private:
 };
 
 Result<std::optional<Denoised>> wait_until_unwanted(const std::function<bool()>& wanted) {
-    while (wanted()) std::this_thread::yield();
+    EXPECT_TRUE(eventually([&] { return !wanted(); })) << "denoising is not cancelled";
     return std::optional<Denoised>();
 }
 
@@ -223,13 +225,13 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
     networks.instead = [&](size_t call, const std::function<bool()>& wanted) {
         // The first run would never end by itself; the next ones finish at once.
         if (call > 1) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
-        begun = true, begun.notify_all();
+        begun = true;
         return wait_until_unwanted(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, small_project());
-    begun.wait(false);
+    EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
     submit(session, 2, lit_by(small_project(), 3));
     session.wait_for(ends(2));
     session.shut_down();
@@ -241,13 +243,13 @@ TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
     StandIn networks;
     std::atomic<bool> begun{false};
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
-        begun = true, begun.notify_all();
+        begun = true;
         return wait_until_unwanted(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
     submit(session, 1, small_project());
-    begun.wait(false);
+    EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
     session->want_denoised(false);
     EXPECT_EQ(session.wait_for(1, State::complete).denoised, nullptr);
 }
@@ -255,11 +257,19 @@ TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
 TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
     for (int i = 0; i < 20; ++i) {
         StandIn networks;
-        networks.instead = [](size_t, const std::function<bool()>& wanted) { return wait_until_unwanted(wanted); };
+        std::atomic<int> ended{0};
+        networks.instead = [&](size_t, const std::function<bool()>& wanted) {
+            auto nothing = wait_until_unwanted(wanted);
+            ++ended;
+            return nothing;
+        };
         RecordingSession session(2, {}, networks.function());
         session->want_denoised(true);
         submit(session, 1, small_project());
-        if (i % 2) session.wait_for(1, State::complete);
+        if (i % 2) EXPECT_TRUE(eventually([&] { return !networks.calls().empty(); })) << "denoising does not begin";
+        session.shut_down();
+        EXPECT_EQ(size_t(ended), networks.calls().size()) << "the denoiser still runs";
+        for (const Event& e : session.events()) EXPECT_EQ(e.denoised, nullptr) << "published although it was cancelled";
     }
 }
 
@@ -412,7 +422,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     std::atomic<bool> slow{false}, begun{false};
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
         if (!slow) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
-        begun = true, begun.notify_all();
+        begun = true;
         return wait_until_unwanted(wanted);
     };
     RecordingSession session(2, {}, networks.function());
@@ -422,7 +432,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     slow = true;
     session->pause(true); // so that no later frame replaces it
     submit(session, 2, lit_by(project, 3));
-    begun.wait(false);
+    EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
     session->want_denoised(false);
     EXPECT_EQ(session->pictures().frame->revision, 2u);
 }

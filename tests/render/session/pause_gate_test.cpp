@@ -2,6 +2,7 @@
 #include "render/session/pause_gate.h"
 
 #include "tests/render/session/recording_session.h"
+#include "tests/support/eventually.h"
 #include "tests/support/pictures.h"
 #include "tests/support/sample_project.h"
 
@@ -17,11 +18,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using State = SessionStatus::State;
 using test::Event;
+using test::eventually;
+using test::HangGuard;
 using test::RecordingSession;
 
 const auto at_leisure = [] { return false; };
 
 TEST(PauseGate, BlocksUntilItOpens) {
+    const HangGuard guard("waiting at an open gate");
     PauseGate gate;
     gate.wait_while_closed(at_leisure);
     gate.close();
@@ -30,7 +34,7 @@ TEST(PauseGate, BlocksUntilItOpens) {
         gate.wait_while_closed(at_leisure);
         early = !opened;
     });
-    while (!gate.has_waiting_threads()) std::this_thread::yield();
+    EXPECT_TRUE(eventually([&] { return gate.has_waiting_threads(); })) << "the thread does not wait";
     opened = true;
     gate.open();
     worker.join();
@@ -39,15 +43,17 @@ TEST(PauseGate, BlocksUntilItOpens) {
 }
 
 TEST(PauseGate, LetsInterruptedThreadsPass) {
+    const HangGuard guard("waiting of an interrupted thread");
     PauseGate gate;
     gate.close();
     gate.wait_while_closed([] { return true; });
     std::atomic<bool> interrupted{false};
     std::thread worker([&] { gate.wait_while_closed([&] { return interrupted.load(); }); });
-    while (!gate.has_waiting_threads()) std::this_thread::yield();
+    EXPECT_TRUE(eventually([&] { return gate.has_waiting_threads(); })) << "the thread does not wait";
     interrupted = true;
     gate.notify();
     worker.join();
+    EXPECT_FALSE(gate.has_waiting_threads());
     EXPECT_TRUE(gate.is_closed());
 }
 
@@ -151,8 +157,9 @@ TEST(StandingAside, CanBeDestroyed) {
     session->submit(1, project.scene, project.render);
     session.wait_for([](const Event& e) { return e.frame && e.frame->divider == 1; });
     session->yield_to_ui(true);
-    while (session->status().state != State::yielding) std::this_thread::yield();
+    EXPECT_TRUE(eventually([&] { return session->status().state == State::yielding; })) << "it does not yield";
     session.shut_down();
+    EXPECT_FALSE(session.frames().back()->complete) << "it is destroyed in the middle of its image";
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 #include "tests/render/session/recording_session.h"
 
+#include "tests/support/eventually.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace blush::test {
 namespace {
@@ -26,6 +27,11 @@ RecordingSession::RecordingSession(const SessionOptions& options, std::function<
     watched_ = session_.get();
 }
 
+void RecordingSession::shut_down() {
+    const HangGuard guard("the destruction of a session");
+    session_.reset();
+}
+
 void RecordingSession::record() {
     // Nothing is announced before the first submission, so watched_ is set by now.
     Event event;
@@ -45,7 +51,7 @@ void RecordingSession::record() {
 Event RecordingSession::wait_for(const EventTest& test) {
     std::unique_lock lock(mutex_);
     auto found = events_.end();
-    const bool came = changed_.wait_for(lock, std::chrono::minutes(4), [&] {
+    const bool came = changed_.wait_for(lock, patience, [&] {
         found = std::find_if(events_.begin(), events_.end(), test);
         return found != events_.end();
     });

@@ -28,8 +28,9 @@ public:
     explicit RecordingSession(const SessionOptions& options, std::function<void(RenderSession&, const Event&)> on_event = {});
 
     RenderSession* operator->() { return session_.get(); }
-    // Stops and joins; recorded events stay readable.
-    void shut_down() { session_.reset(); }
+    ~RecordingSession() { shut_down(); }
+    // Stops and joins; recorded events stay readable. A session that never ends aborts the test with a message.
+    void shut_down();
 
     // Returns the first recorded event for which `test` holds. After minutes the test fails and an empty event is returned.
     Event wait_for(const EventTest& test);

@@ -1,4 +1,5 @@
 // Shortcuts, gestures, toasts, statistics and background jobs.
+#include "tests/support/eventually.h"
 #include "ui/jobs/background_job.h"
 #include "ui/window/automation.h"
 #include "ui/window/frame_budget.h"
@@ -207,7 +208,7 @@ TEST(BackgroundJob, ReturnsItsResultOnceAndWakes) {
             return 42;
         },
         [&] { woken = true; });
-    while (!woken) std::this_thread::yield();
+    EXPECT_TRUE(test::eventually([&] { return woken.load(); })) << "the job does not wake the window";
     EXPECT_EQ(job.take(), 42);
     EXPECT_FALSE(job.take());
     EXPECT_EQ(job.progress().read(), (std::pair<double, std::string>(0.5, "half")));
@@ -219,7 +220,7 @@ TEST(BackgroundJob, DestructionCancelsAndWaits) {
         const BackgroundJob<int> job(
             "endless",
             [&](JobProgress& p) {
-                while (!p.cancel) std::this_thread::yield();
+                EXPECT_TRUE(test::eventually([&] { return p.cancel.load(); })) << "the job is not cancelled";
                 ended = true;
                 return 0;
             },
