@@ -12,7 +12,7 @@
 #include <array>
 #include <functional>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 using test::all_planes;
@@ -185,4 +185,4 @@ TEST(LampBvh, ShowsTheSameImage) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 class Submissions : public ::testing::Test {
@@ -91,4 +91,4 @@ TEST_F(Submissions, LoadedSamplesBeginAnImage) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE
