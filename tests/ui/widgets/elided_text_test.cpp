@@ -2,7 +2,7 @@
 #include "tests/ui/imgui_test.h"
 #include "ui/widgets/elided_text.h"
 
-namespace blush {
+namespace blush::TEST_FILE {
 namespace {
 
 float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
@@ -53,4 +53,4 @@ TEST_F(ElidedText, DoesNotSplitCharacters) {
 }
 
 } // namespace
-} // namespace blush
+} // namespace blush::TEST_FILE
