@@ -142,12 +142,14 @@ std::map<std::string, std::vector<double>> compile_ms(const LitScene& lit, const
     Renderer renderer({.threads = options.threads, .planes = {}});
     renderer.update(lit.scene, window_settings());
     std::map<std::string, std::vector<double>> ms;
-    for (const NamedEdit& edit : edits_of(lit))
+    for (const NamedEdit& edit : edits_of(lit)) {
+        renderer.update(lit.scene, window_settings()); // takes the last edit back
         for (int step = 1; step <= options.edits; ++step) {
             Scene edited = lit.scene;
             edit.apply(edited, step);
             ms[edit.name].push_back(1e3 * cost_of([&] { renderer.update(edited, window_settings()); }).core_seconds);
         }
+    }
     return ms;
 }
 
@@ -155,9 +157,9 @@ Json measure(const LitScene& lit, const Options& options) {
     const std::map<std::string, std::vector<double>> compiling = compile_ms(lit, options);
     LatencyProbe probe(options.threads);
     std::mt19937 random(1);
-    if (!probe.measure(lit.scene, window_settings())) return {{"failed", "the session gave no image"}};
     Json result;
     for (const NamedEdit& edit : edits_of(lit)) {
+        if (!probe.measure(lit.scene, window_settings())) return {{"failed", edit.name}}; // takes the last edit back
         std::vector<Response> responses;
         for (int step = 1; step <= options.edits; ++step) {
             let_it_work(random);
