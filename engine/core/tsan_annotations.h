@@ -1,5 +1,5 @@
-// Internal to core: ThreadSanitizer annotations. Writes before give() happen before reads after receive(). TBB guarantees this,
-// but ThreadSanitizer cannot see it, since TBB is not instrumented. Also for files compiled without TSan (see CMakeLists.txt).
+// ThreadSanitizer annotations. Writes before give() happen before reads after receive(). TBB and Embree guarantee this, but
+// ThreadSanitizer cannot see it, since they are not instrumented. Also for files compiled without TSan (see CMakeLists.txt).
 #pragma once
 
 #ifdef BLUSH_TSAN

@@ -3,6 +3,7 @@
 #include "core/math.h"
 #include "core/memory_limit.h"
 #include "core/sampler.h"
+#include "core/tsan_annotations.h"
 #include "render/bvh/compact_bvh.h"
 #include "render/bvh/opacity.h"
 #include "render/compile/scene_tables.h"
@@ -272,8 +273,18 @@ constexpr uint64_t min_memory_of_embree = uint64_t(128) << 20;
 // build BVHs, crashes if an allocation fails in one of its threads.
 constexpr uint64_t min_memory_to_build = uint64_t(128) << 20;
 
+// Embree's threads count into it. They begin after its construction, which ThreadSanitizer cannot see.
+struct MemoryCounter {
+    std::atomic<int64_t> bytes{0};
+    HandOver constructed;
+
+    MemoryCounter() { constructed.give(); }
+};
+
 bool count_memory(void* user, ssize_t bytes, bool) {
-    static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+    MemoryCounter& counter = *static_cast<MemoryCounter*>(user);
+    counter.constructed.receive();
+    counter.bytes.fetch_add(bytes, std::memory_order_relaxed);
     return true;
 }
 
@@ -294,7 +305,7 @@ std::string why_not_built(RTCError error, int64_t held) {
 } // namespace
 
 struct Accel::State {
-    std::atomic<int64_t> memory{0};
+    MemoryCounter memory;
     RTCDevice device = nullptr;
     int packet = 4;
     std::map<BottomKey, SceneHandle> bottoms;
@@ -329,7 +340,7 @@ struct Accel::State {
     void add_spheres(SceneHandle& to, std::span<const AccelSphere> spheres);
     void check_for_errors() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-            throw std::runtime_error(why_not_built(error, memory));
+            throw std::runtime_error(why_not_built(error, memory.bytes));
     }
     TracedScenes scenes() const { return {top.scene, lamps.scene, lamp_meshes, first_lamp, first_sphere, reach}; }
 };
@@ -422,7 +433,7 @@ size_t Accel::compact_triangles() const {
     for (const auto& [key, bottom] : state_->bottoms) n += bottom.compact_triangles;
     return n;
 }
-size_t Accel::memory_bytes() const { return size_t(std::max<int64_t>(0, state_->memory)); }
+size_t Accel::memory_bytes() const { return size_t(std::max<int64_t>(0, state_->memory.bytes)); }
 
 namespace {
 // Embree 3.13's traversal of coherent packets is a thousand times slower through instances (a mesh of a million triangles,
