@@ -12,9 +12,9 @@ namespace {
 // of the distribution (at most 4 / alpha, relatively) and of the cosines it makes with both; near the critical angle light gets
 // through like the root of (eta cos)^2.
 double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
-    const float min_decades =
+    const float min_roughness =
         p.layers.clearcoat > 0 ? std::min(p.roughness, std::max(p.layers.clearcoat_roughness, smooth_roughness)) : p.roughness;
-    const double alpha = std::max(reference::sqr(min_decades), 1e-4);
+    const double alpha = std::max(reference::sqr(min_roughness), 1e-4);
     const double eta = wo.z < 0 ? 1 / p.ior : p.ior;
     const bool through = wo.z * wi.z < 0;
     const Vec3d a = reference::to_double(wo), b = reference::to_double(wi);

@@ -262,8 +262,8 @@ inline statistics::Chart facet_chart(double alpha, const Vec3& wo_surface, bool 
 // Charts of all directions a material with facets scatters to.
 inline std::vector<statistics::Chart> facet_charts(const Params& p, const Vec3& wo) {
     const bool coated = p.layers.clearcoat > 0 && p.layers.clearcoat_roughness >= smooth_roughness;
-    const float min_decades = coated ? std::min(p.roughness, p.layers.clearcoat_roughness) : p.roughness;
-    const double alpha = sqr(std::max(min_decades, smooth_roughness)), ior = std::max(p.ior, 1.f);
+    const float min_roughness = coated ? std::min(p.roughness, p.layers.clearcoat_roughness) : p.roughness;
+    const double alpha = sqr(std::max(min_roughness, smooth_roughness)), ior = std::max(p.ior, 1.f);
     std::vector<statistics::Chart> charts = {facet_chart(alpha, wo, false, 0)};
     if (p.layers.diffuse_transmission > 0) {
         // Whatever goes through, diffusely or not, is on this chart; refraction has none of its own that covers all directions.

@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-constexpr int max_interval_ratio = 4096;
+constexpr int max_width = 4096;
 
 // The face that a direction hits, and the position on it: right and up from its centre, in half sides.
 struct FacePoint {
@@ -56,7 +56,7 @@ Result<ImagePtr> lat_long_of(const CubeFaces& faces, const Quat& rotation) {
     constexpr double pi = std::numbers::pi;
     const Affined turned = to_affine(rotation);
     auto image = std::make_shared<Image>();
-    image->width = std::min(4 * faces[0]->width, max_interval_ratio);
+    image->width = std::min(4 * faces[0]->width, max_width);
     image->height = image->width / 2;
     image->channels = 3;
     image->floats.resize(3 * size_t(image->width) * size_t(image->height));

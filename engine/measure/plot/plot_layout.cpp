@@ -153,13 +153,13 @@ double covered(const PlotLayout& l, const Plot& plot, double left, double top, d
 // Prefers the lower left corner, since curves fall.
 void lay_out_legend(PlotLayout& l, const Plot& plot, double em, const std::function<double(std::string_view)>& width) {
     std::vector<size_t> named;
-    double max_interval_ratio = 0;
+    double widest = 0;
     for (size_t i = 0; i < plot.curves.size(); ++i) {
         if (plot.curves[i].name.empty()) continue;
         named.push_back(i);
-        max_interval_ratio = std::max(max_interval_ratio, width(plot.curves[i].name));
+        widest = std::max(widest, width(plot.curves[i].name));
     }
-    const double line = 1.5 * em, full = 1.25 * l.legend_sample + max_interval_ratio, height = line * double(named.size());
+    const double line = 1.5 * em, full = 1.25 * l.legend_sample + widest, height = line * double(named.size());
     const double lower = l.bottom - 0.6 * em - height, upper = l.top + (l.marks.empty() ? 0.6 : 0.6 + 1.35 * label_rows) * em;
     const double left = l.left + 0.8 * em, right = l.right - 0.8 * em - full;
     const PlotPixel corners[] = {{left, lower}, {right, upper}, {right, lower}, {left, upper}};
@@ -186,9 +186,9 @@ PlotLayout compute_plot_layout(const Plot& plot, const PlotMetrics& metrics) {
     l.bottom = std::max(metrics.height - (plot.x_label.empty() ? 1.9 : 4.2) * em, l.top + 1);
     l.y_ticks = ticks_of(
         l.y_axis, [&](double v) { return l.py(v); }, [&](const std::string&) { return 1.4 * em; });
-    double max_interval_ratio = 0;
-    for (const PlotTick& t : l.y_ticks) max_interval_ratio = std::max(max_interval_ratio, width(t.text));
-    l.left = max_interval_ratio + (plot.y_label.empty() ? 1 : 2.6) * em;
+    double widest = 0;
+    for (const PlotTick& t : l.y_ticks) widest = std::max(widest, width(t.text));
+    l.left = widest + (plot.y_label.empty() ? 1 : 2.6) * em;
     l.right = std::max(metrics.width - 1.3 * em, l.left + 1);
     l.x_ticks = ticks_of(
         l.x_axis, [&](double v) { return l.px(v); }, [&](const std::string& text) { return width(text) + em; });

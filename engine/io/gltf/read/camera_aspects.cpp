@@ -21,7 +21,7 @@ double aspect_of(const ParsedGltf& camera) {
 } // namespace
 
 std::map<Id<Camera>, float> camera_aspects(const GltfOrigin& origin) {
-    constexpr double min_decades = 0.01, max_interval_ratio = 100;
+    constexpr double min_aspect = 0.01, max_aspect = 100;
     std::map<Id<Camera>, float> aspects;
     if (!origin.json || origin.indices.cameras.empty()) return aspects;
     // Keeps only the root's member "cameras" while parsing.
@@ -30,8 +30,7 @@ std::map<Id<Camera>, float> camera_aspects(const GltfOrigin& origin) {
     };
     const ParsedGltf root = ParsedGltf::parse(*origin.json, keep, /*allow_exceptions=*/false);
     for (const auto& [id, index] : origin.indices.cameras)
-        if (const double aspect = aspect_of(gltf_item(root, "cameras", size_t(index)));
-            aspect >= min_decades && aspect <= max_interval_ratio)
+        if (const double aspect = aspect_of(gltf_item(root, "cameras", size_t(index))); aspect >= min_aspect && aspect <= max_aspect)
             aspects[id] = float(aspect);
     return aspects;
 }

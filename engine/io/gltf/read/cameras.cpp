@@ -22,9 +22,8 @@ Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const
         if (source.orthographic.ymag < 0) context.warn("negative magnification: the absolute value is used", where + ".orthographic.ymag");
         lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, smallest_length, any_float, where + ".orthographic.ymag");
     } else {
-        constexpr float min_decades = 1e-4f, max_interval_ratio = std::numbers::pi_v<float> - 1e-4f;
-        lens.yfov_radians =
-            checked(context, source.perspective.yfov, lens.yfov_radians, min_decades, max_interval_ratio, where + ".perspective.yfov");
+        constexpr float min_yfov = 1e-4f, max_yfov = std::numbers::pi_v<float> - 1e-4f;
+        lens.yfov_radians = checked(context, source.perspective.yfov, lens.yfov_radians, min_yfov, max_yfov, where + ".perspective.yfov");
     }
     const GltfObject blush = GltfObject(context, source.extras, where + ".extras").object("blush");
     lens.aperture_radius = blush.number("aperture_radius", 0, 0, any_float);

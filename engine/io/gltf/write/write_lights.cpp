@@ -29,9 +29,9 @@ void write_emission(Json& object, const Light& light, float intensity_otherwise)
 
 // KHR_lights_punctual wants 0 <= inner < outer <= pi / 2.
 void write_cone(Json& object, const Light& light) {
-    constexpr float min_decades = 1e-4f;
+    constexpr float min_cone = 1e-4f;
     Json& spot = child(object, "spot");
-    const float outer = std::clamp(light.outer_cone_radians, min_decades, pi / 2);
+    const float outer = std::clamp(light.outer_cone_radians, min_cone, pi / 2);
     set_number(spot, "outerConeAngle", outer, pi / 4);
     set_number(spot, "innerConeAngle", std::clamp(light.inner_cone_radians, 0.0f, outer * 0.999f), 0);
 }
