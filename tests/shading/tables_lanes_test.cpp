@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace blush::TEST_FILE {
+namespace blush {
 
 namespace isa_v2 {
 void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
@@ -24,6 +24,9 @@ namespace isa_v4 {
 void evaluate_tables_wide(const TablePoints& points, const std::array<float*, table_answers>& answers);
 }
 
+} // namespace blush
+
+namespace blush::TEST_FILE {
 namespace {
 
 using Evaluate = void (*)(const TablePoints&, const std::array<float*, table_answers>&);
