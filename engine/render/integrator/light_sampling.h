@@ -1,4 +1,4 @@
-// Sampling for next-event estimation: selects a light, a point on it, and computes the incident light.
+// Next event estimation (NEE): selects a light, a point on it, and computes the incident light.
 #pragma once
 
 #include "core/sampler.h"
