@@ -146,7 +146,6 @@ void RenderScene::update(const Scene& scene, const RenderSettings& settings, con
     update_materials(scene, plan, workers);
     update_geometry(scene, plan, workers);
     update_lights(scene, settings, plan, groups);
-    geometry_.fill(tables_);
     if (plan.camera || changed_.origin)
         tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);
     if (plan.features) features_ = compute_features(scene, settings);
