@@ -266,7 +266,9 @@ TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
         RecordingSession session(2, {}, networks.function());
         session->want_denoised(true);
         submit(session, 1, small_project());
-        if (i % 2) EXPECT_TRUE(eventually([&] { return !networks.calls().empty(); })) << "denoising does not begin";
+        if (i % 2) {
+            EXPECT_TRUE(eventually([&] { return !networks.calls().empty(); })) << "denoising does not begin";
+        }
         session.shut_down();
         EXPECT_EQ(size_t(ended), networks.calls().size()) << "the denoiser still runs";
         for (const Event& e : session.events()) EXPECT_EQ(e.denoised, nullptr) << "published although it was cancelled";
