@@ -109,6 +109,7 @@ struct SceneHandle {
     }
     void attach(RTCGeometry geometry, uint32_t mask) {
         rtcSetGeometryMask(geometry, mask);
+        if (mask == 0) rtcDisableGeometry(geometry); // it keeps its number and is not part of the BVH
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, next_id++);
         rtcReleaseGeometry(geometry);

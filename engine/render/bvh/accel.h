@@ -34,7 +34,7 @@ struct AccelTriangles {
     size_t triangle_count = 0;
     int32_t part = 0;            // the part whose material and attributes give the opacity
     bool alpha = false;          // hits are tested against the material's opacity
-    uint32_t mask = seen_by_all; // used for flat geometry only
+    uint32_t mask = seen_by_all; // used for flat geometry only; 0: not in the BVH
 };
 struct AccelInstances {
     std::vector<AccelTriangles> geometries; // one mesh

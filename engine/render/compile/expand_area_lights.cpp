@@ -85,8 +85,7 @@ Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
         const Node& node = *scene.nodes.find(id);
         const Light* light = scene.lights.find(node.light);
         if (!is_area_light(*light)) continue;
-        // With a light mix, meshes of disabled lights remain, so that switching a light changes only its own emission.
-        if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
+        // Meshes of disabled lights remain, so that switching a light changes no list of objects (is_disabled_mesh).
         const AreaShape shape = shape_of(*light, corners);
         const uint32_t key = expanded_id_bit | node.light.value;
         // Nodes may share a light; tables keep the first of equal records.

@@ -38,10 +38,10 @@ struct ExpandedMeshes {
     ExtendedTable<Material> materials;
 };
 
-// Returns the scene with solo (light_visibility.h) and its pose (posed_scene.h) applied and every enabled rectangle and disk light
+// Returns the scene with solo (light_visibility.h) and its pose (posed_scene.h) applied and every rectangle and disk light
 // replaced by an emissive mesh below its node (expanded_lights.h). A disk becomes a polygon of the same area with disk_corners()
 // corners (light_limits.h). With the most corners, area sampling is identical and the flux differs from the circle's by less than
-// a millionth, and kernels need no special case. With a light mix, disabled lights keep a black mesh. Meshes that need tangents
+// a millionth, and kernels need no special case. The mesh of a disabled light is black (is_disabled_mesh). Meshes that need tangents
 // get them (tangent_meshes.h), and deforming meshes are deformed (deformed_meshes.h). `known` caches meshes and tables between
 // calls.
 Scene expand_area_lights(const Scene& scene, ExpandedMeshes* known = nullptr);

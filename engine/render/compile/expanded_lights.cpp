@@ -16,4 +16,9 @@ const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> id) {
     return node ? expanded.lights.find(node->light) : nullptr;
 }
 
+bool is_disabled_mesh(const Scene& expanded, Id<Node> id) {
+    const Light* light = light_of_expanded_mesh(expanded, id);
+    return light && !light->enabled && expanded.mix.grouping == LightMix::Grouping::none;
+}
+
 } // namespace blush

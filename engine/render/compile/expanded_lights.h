@@ -19,5 +19,8 @@ inline bool is_expanded(Id<Node> id) { return (id.value & expanded_id_bit) != 0;
 std::vector<Id<Node>> nodes_with_lights(const Scene& scene);
 // The light whose mesh a node of the expanded scene is; nullptr: an ordinary node.
 const Light* light_of_expanded_mesh(const Scene& expanded, Id<Node> node);
+// True for the mesh of a disabled light, which no ray hits. With a light mix it is an ordinary black mesh, because the images of the
+// other lights must not depend on which lights are enabled.
+bool is_disabled_mesh(const Scene& expanded, Id<Node> node);
 
 } // namespace blush

@@ -1,6 +1,7 @@
 #include "render/compile/object_list.h"
 
 #include "render/compile/deformed_meshes.h"
+#include "render/compile/expanded_lights.h"
 #include "scene/affine.h"
 #include "scene/world_transforms.h"
 
@@ -48,7 +49,7 @@ std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
         if (!mesh || !placements(id).visible) continue;
-        SceneObject object{id, {}, world_from_mesh(scene, placements, id, node), false, node.instances};
+        SceneObject object{id, {}, world_from_mesh(scene, placements, id, node), false, node.instances, is_disabled_mesh(scene, id)};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
         if (object.parts.empty() || object.copies() == 0) continue;

@@ -16,6 +16,7 @@ struct SceneObject {
     Affined world_from_object;
     bool instanced = false;
     InstancesPtr instances = nullptr; // null: one copy
+    bool disabled = false;            // the mesh of a disabled light (expanded_lights.h): no ray hits it, and it has no extent
     std::vector<Affined> places = {}; // world transforms that replace both (baked_transforms.h); empty: unused
 
     // Equal except for the transforms.

@@ -61,6 +61,7 @@ private:
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     std::vector<SceneObject> list_anew(const Scene& scene);
     bool move_panels(const Scene& scene, const std::vector<Id<Node>>& moved);
+    void switch_panels(const Scene& scene);
     void update_used_materials(const Scene& scene, const UpdatePlan& plan);
     void update_vertices(const UpdatePlan& plan, const std::vector<SceneObject>& before);
     void update_masks(const Scene& scene);
@@ -76,7 +77,7 @@ private:
     // What the current update has changed so far.
     struct Changed {
         bool objects = false;  // listed anew, or their vertices laid out anew
-        bool panels = false;   // meshes of area lights moved, or their masks changed
+        bool panels = false;   // meshes of area lights moved, were disabled or enabled, or their masks changed
         bool spheres = false;  // sphere lights
         bool origin = false;   // of all positions
         bool emission = false; // materials of emissive meshes

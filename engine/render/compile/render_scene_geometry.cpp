@@ -37,11 +37,12 @@ bool has_catchers(const Scene& scene) {
 }
 
 // Ray mask of an object: meshes of area lights may be hidden from the camera, and shadow catchers always are.
-uint32_t mask_of(const Scene& expanded, Id<Node> object, const CasterSets& casters, bool any_catches) {
-    const Light* light = light_of_expanded_mesh(expanded, object);
-    const bool catches = any_catches && is_shadow_catcher(expanded, object);
+uint32_t mask_of(const Scene& expanded, const SceneObject& object, const CasterSets& casters, bool any_catches) {
+    if (object.disabled) return 0;
+    const Light* light = light_of_expanded_mesh(expanded, object.node);
+    const bool catches = any_catches && is_shadow_catcher(expanded, object.node);
     const bool seen = !catches && (!light || light->visible_to_camera);
-    return ray_mask(seen) | (catches ? catcher_ray_mask : 0) | casters.mask_of(expanded, object);
+    return ray_mask(seen) | (catches ? catcher_ray_mask : 0) | casters.mask_of(expanded, object.node);
 }
 
 bool same_shapes(const std::vector<SceneObject>& a, const std::vector<SceneObject>& b) {
@@ -90,6 +91,15 @@ bool RenderScene::move_panels(const Scene& scene, const std::vector<Id<Node>>& m
     return true;
 }
 
+// Disables and enables meshes of area lights.
+void RenderScene::switch_panels(const Scene& scene) {
+    for (const size_t i : panels_) {
+        const bool disabled = is_disabled_mesh(scene, objects_[i].node);
+        changed_.panels |= disabled != objects_[i].disabled;
+        objects_[i].disabled = disabled;
+    }
+}
+
 // What the materials of objects need, if objects or these materials changed.
 void RenderScene::update_used_materials(const Scene& scene, const UpdatePlan& plan) {
     if (!changed_.objects && !plan.all_materials && plan.materials.empty()) return;
@@ -132,7 +142,7 @@ void RenderScene::update_masks(const Scene& scene) {
     CasterSets casters(scene, light_nodes_);
     const bool all = changed_.objects || casters != casters_;
     casters_ = std::move(casters);
-    const auto mask = [&](const SceneObject& object) { return mask_of(scene, object.node, casters_, has_catchers_); };
+    const auto mask = [&](const SceneObject& object) { return mask_of(scene, object, casters_, has_catchers_); };
     changed_.masks = all;
     if (all) {
         masks_.clear();
@@ -168,6 +178,8 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     spheres_ = std::move(spheres);
     changed_.objects = plan.objects || plan.transforms || !move_panels(scene, plan.moved_panels);
     const std::vector<SceneObject> before = changed_.objects ? list_anew(scene) : std::vector<SceneObject>{};
+
+    switch_panels(scene);
 
     const Vec3d origin_before = extent_.origin;
     if (changed_.objects)

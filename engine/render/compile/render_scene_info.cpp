@@ -51,6 +51,12 @@ CompiledInfo RenderScene::info() const {
         info.meshes = int64_t(geometry_.parts().size());
         info.instances = geometry_.instance_count();
         for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
+        for (const size_t i : panels_) {
+            if (!objects_[i].disabled) continue;
+            info.meshes -= int64_t(objects_[i].copies() * objects_[i].parts.size());
+            info.instances -= objects_[i].instanced ? int64_t(objects_[i].copies()) : 0;
+            info.triangles -= int64_t(objects_[i].copies() * objects_[i].triangle_count());
+        }
         if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0)
             info.warnings.push_back(degenerate_triangles(degenerate));
     }

@@ -29,6 +29,7 @@ Vec3d render_origin(const Bounds& bounds) {
 }
 
 void ExtentCache::include(const SceneObject& object, Bounds& bounds) const {
+    if (object.disabled) return;
     for (const MeshPart& part : object.parts)
         for (size_t copy = 0; copy < object.copies(); ++copy)
             bounds.include(by_serial_.at(part.geometry->serial), object.world_from_copy(copy));

@@ -167,6 +167,40 @@ TEST_P(LightEdits, RenderLikeAFreshScene) {
 INSTANTIATE_TEST_SUITE_P(Seeds, LightEdits,
                          ::testing::Values(Case{1, false}, Case{2, false}, Case{3, false}, Case{4, true}, Case{5, true}));
 
+// A disabled area light is not there for rays, for the scene's extent (which scales a sky's selection power) and for the statistics.
+TEST(DisabledAreaLight, IsInNoRaysWay) {
+    Project project = stage(false);
+    project.scene.environment.intensity = 1;
+    // Stochastic opacity depends on the number of an instance, which the panel shifts.
+    for (const auto& [id, material] : Table<Material>(project.scene.materials)) {
+        Material opaque = material;
+        opaque.alpha = Material::Alpha::opaque;
+        project.scene.materials.set(id, opaque);
+    }
+    Light panel;
+    panel.kind = Light::Kind::rectangle;
+    panel.width = panel.height = 40;
+    panel.enabled = false;
+    Node node;
+    node.light = project.scene.lights.add(panel);
+    node.local.translation = {0, 0, -1};
+    const Id<Node> id = project.scene.nodes.add(node);
+    Scene without = project.scene;
+    change_node(without, id, [](Node& n) { n.light = {}; });
+    EXPECT_TRUE(same_picture(test::fresh_picture(project.scene, project.render, 2), test::fresh_picture(without, project.render, 2)));
+
+    Renderer with_panel(all_planes()), with_none(all_planes());
+    with_panel.update(project.scene, project.render);
+    with_none.update(without, project.render);
+    EXPECT_EQ(with_panel.info().triangles, with_none.info().triangles);
+    EXPECT_EQ(with_panel.info().meshes, with_none.info().meshes);
+
+    Scene enabled = project.scene;
+    panel.enabled = true;
+    enabled.lights.set(node.light, panel);
+    EXPECT_FALSE(same_picture(test::fresh_picture(enabled, project.render, 2), test::fresh_picture(without, project.render, 2)));
+}
+
 // Beside many copies, lamps are traced in a BVH of their own. The image is that of one BVH: here of the same scene without the last
 // copies, which are too small to be hit. Without the flag, which has points in common with the screen: which one is hit there depends
 // on the BVH.

@@ -208,7 +208,7 @@ TEST_F(EditCost, SetAreaLight) {
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.intensity = 7; }), one_material(body));
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.color = {1, 0, 0}; }), one_material(body));
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.width = 3; }), panel_moves);
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.enabled = false; }), listed_anew());
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.enabled = false; }), one_material(body)) << "its mesh stays";
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.name = "Panel"; }), nothing());
     EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), panel_moves);
     EXPECT_EQ(cost_of_node(sample.root, [](Node& n) { n.local.translation.x += 1; }), moved()) << "objects are below it too";
