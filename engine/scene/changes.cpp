@@ -150,7 +150,8 @@ void diff_mix(const Scene& before, const Scene& after, Changes& changes) {
 
 void diff_settings(const RenderSettings& a, const RenderSettings& b, Changes& changes) {
     changes.resolution = a.width != b.width || a.height != b.height || a.resolution_scale != b.resolution_scale;
-    changes.nee_changed = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf);
+    const auto compensates = [](const RenderSettings& s) { return s.strategy == Strategy::mis && s.mis_compensation; };
+    changes.nee_changed = (a.strategy == Strategy::bsdf) != (b.strategy == Strategy::bsdf) || compensates(a) != compensates(b);
     changes.stop_rules = a.spp != b.spp || a.seconds != b.seconds || a.error != b.error;
     RenderSettings sized_alike = a;
     sized_alike.width = b.width;

@@ -12,7 +12,7 @@ struct Changes {
     bool view = false; // pose or lens; ignores the pivot, and the focus distance of a pinhole
     bool resolution = false;
     bool integrator = false;  // bounces, Russian roulette, strategy, filter, seed, first sample, energy compensation
-    bool nee_changed = false; // NEE was switched on or off (Strategy::bsdf)
+    bool nee_changed = false; // NEE was switched on or off (Strategy::bsdf), or MIS compensation
     bool stop_rules = false;
     bool environment_parameters = false; // colour, intensity, rotation, visibility
     bool environment_image = false;      // kind or pixels

@@ -6,6 +6,7 @@ RenderSettings recommended_settings() {
     RenderSettings settings;
     settings.adaptive = true;
     settings.reuse = 8;
+    settings.mis_compensation = true;
     return settings;
 }
 

@@ -59,8 +59,9 @@ struct RenderSettings {
     PixelFilter filter = PixelFilter::blackman_harris;
     SamplerType sampler = SamplerType::sobol;
     bool energy_compensation = false;
-    bool adaptive = false; // adaptive sampling; spp is then the mean. Requires first_sample = 0
-    int reuse = 1;         // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
+    bool mis_compensation = false; // light sampling leaves out what BSDF sampling covers (environment_table.h); needs Strategy::mis
+    bool adaptive = false;         // adaptive sampling; spp is then the mean. Requires first_sample = 0
+    int reuse = 1;                 // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
     Clamp clamp = {};
     PictureRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty
     bool operator==(const RenderSettings&) const = default;

@@ -47,7 +47,8 @@ struct LightTables {
     int32_t count = 0;                    // of slots
     const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree
     LightTree tree;
-    int32_t environment = -1;      // index of the environment, -1: none
+    int32_t environment = -1; // index of the environment, -1: none
+    int32_t samples_environment = 0;
     const int32_t* suns = nullptr; // indices of the suns with a disk: escaping rays can hit them
     int32_t sun_count = 0;
     int32_t first_sphere = 0; // index of the first sphere; spheres are consecutive

@@ -37,6 +37,59 @@ TEST(RenderOptions, TextureMemoryIsInMebibytes) {
     EXPECT_TRUE(refused({"--texture-memory", "0"}));
 }
 
+std::vector<std::string> every_option() {
+    return {"--size",
+            "320x200",
+            "--spp",
+            "12",
+            "--time",
+            "2.5",
+            "--error",
+            "0.01",
+            "--seed",
+            "7",
+            "--max-bounces",
+            "2",
+            "--roulette",
+            "constant=0.5,start=1",
+            "--strategy",
+            "light",
+            "--energy-compensation",
+            "on",
+            "--mis-compensation",
+            "off",
+            "--adaptive",
+            "off",
+            "--reuse",
+            "16",
+            "--clamp",
+            "4,all",
+            "--filter",
+            "box",
+            "--sampler",
+            "random",
+            "--exposure",
+            "-1.5",
+            "--view",
+            "Raw",
+            "--display",
+            "sRGB",
+            "--look",
+            "High contrast",
+            "--auto-exposure",
+            "highlights",
+            "--white",
+            "1,0.8,0.5",
+            "--false-color",
+            "nits=10:500",
+            "--aperture",
+            "0.02",
+            "--focus",
+            "3",
+            "--camera",
+            "Top"};
+}
+
 TEST(RenderOptions, EachOptionSetsItsField) {
     RenderSettings expected = recommended_settings();
     expected.width = 320;
@@ -49,59 +102,13 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
     expected.strategy = Strategy::light;
     expected.energy_compensation = true;
+    expected.mis_compensation = false;
     expected.adaptive = false;
     expected.reuse = 16;
     expected.clamp = {4, true};
     expected.filter = PixelFilter::box;
     expected.sampler = SamplerType::random;
-    const RenderOptions options = parsed({"--size",
-                                          "320x200",
-                                          "--spp",
-                                          "12",
-                                          "--time",
-                                          "2.5",
-                                          "--error",
-                                          "0.01",
-                                          "--seed",
-                                          "7",
-                                          "--max-bounces",
-                                          "2",
-                                          "--roulette",
-                                          "constant=0.5,start=1",
-                                          "--strategy",
-                                          "light",
-                                          "--energy-compensation",
-                                          "on",
-                                          "--adaptive",
-                                          "off",
-                                          "--reuse",
-                                          "16",
-                                          "--clamp",
-                                          "4,all",
-                                          "--filter",
-                                          "box",
-                                          "--sampler",
-                                          "random",
-                                          "--exposure",
-                                          "-1.5",
-                                          "--view",
-                                          "Raw",
-                                          "--display",
-                                          "sRGB",
-                                          "--look",
-                                          "High contrast",
-                                          "--auto-exposure",
-                                          "highlights",
-                                          "--white",
-                                          "1,0.8,0.5",
-                                          "--false-color",
-                                          "nits=10:500",
-                                          "--aperture",
-                                          "0.02",
-                                          "--focus",
-                                          "3",
-                                          "--camera",
-                                          "Top"});
+    const RenderOptions options = parsed(every_option());
     EXPECT_EQ(*settings_of(options), expected);
     EXPECT_TRUE(options.size_given);
     EXPECT_EQ(options.view.exposure_ev, -1.5f);
@@ -184,6 +191,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--strategy", "both"},
                                                       {"--sampler", "halton"},
                                                       {"--energy-compensation", "maybe"},
+                                                      {"--mis-compensation", "maybe"},
                                                       {"--reuse", "3"},
                                                       {"--filter", "gauss"},
                                                       {"--samples", "8:4"},

@@ -22,6 +22,7 @@ RenderSettings unusual_settings() {
     s.filter = PixelFilter::box;
     s.sampler = SamplerType::random;
     s.energy_compensation = true;
+    s.mis_compensation = true;
     s.reuse = 8;
     s.clamp = {2.5f, true};
     s.region = {0.25f, 0.125f, 0.5f, 0.375f};

@@ -1,4 +1,6 @@
 // Environment: lookup, importance sampling, and their consistency.
+#include "core/math.h"
+#include "core/rec709.h"
 #include "render/lights/environment_table.h"
 #include "tests/shading/tables.h"
 #include "tests/support/statistics.h"
@@ -24,6 +26,7 @@ constexpr float infinite = std::numeric_limits<float>::infinity(), nan = std::nu
 struct NamedMap {
     std::string name;
     Environment environment;
+    EnvironmentSampling sampling = EnvironmentSampling::full;
 };
 
 Environment map_of(int width, int height, float rotation_degrees, const std::function<float()>& value) {
@@ -62,6 +65,17 @@ std::vector<NamedMap> maps() {
             {"1 x 2", map_of(1, 2, 10, [&] { return random.unit(); })},
             {"black", map_of(4, 2, 0, [] { return 0.f; })},
             {"constant", constant}};
+}
+
+// With each way of sampling that has a density.
+std::vector<NamedMap> sampled_maps() {
+    std::vector<NamedMap> all = maps();
+    for (NamedMap map : maps())
+        for (const EnvironmentSampling sampling : {EnvironmentSampling::compensated, EnvironmentSampling::compensated_alone}) {
+            map.sampling = sampling;
+            if (build_environment_table(map.environment, sampling).sampled_share > 0) all.push_back(map);
+        }
+    return all;
 }
 
 // ---- a double-precision model of the map and its cells
@@ -223,9 +237,9 @@ TEST(EnvironmentLookup, NoDirectionLeavesTheMap) {
 
 TEST(EnvironmentSampling, FollowsItsDensity) {
     Random random(6);
-    const std::vector<NamedMap> all = maps();
+    const std::vector<NamedMap> all = sampled_maps();
     for (const NamedMap& map : all) {
-        const EnvironmentTable table = build_environment_table(map.environment);
+        const EnvironmentTable table = build_environment_table(map.environment, map.sampling);
         const Model model(table);
         statistics::DirectionTest test;
         test.charts = {model.chart()};
@@ -241,8 +255,8 @@ TEST(EnvironmentSampling, FollowsItsDensity) {
 }
 
 TEST(EnvironmentSampling, DensityIntegratesToOne) {
-    for (const NamedMap& map : maps()) {
-        const EnvironmentTable table = build_environment_table(map.environment);
+    for (const NamedMap& map : sampled_maps()) {
+        const EnvironmentTable table = build_environment_table(map.environment, map.sampling);
         const double total = Model(table).integrate([&](const Vec3d& d) { return environment_pdf<float>(table.tables(), narrowed(d)); }, 2);
         EXPECT_NEAR(total, 1, 8 * 0x1p-24) << map.name;
     }
@@ -298,10 +312,10 @@ TEST(EnvironmentSampling, EveryEmissiveCellCanBeSampled) {
 
 TEST(EnvironmentSampling, SamplesKnowTheirDensityAndRadiance) {
     Random random(8);
-    std::vector<NamedMap> all = maps();
+    std::vector<NamedMap> all = sampled_maps();
     all.push_back({"large", map_of(2048, 1024, 33, [&] { return random.below(50) == 0 ? 1000 * random.unit() : random.unit(); })});
     for (const NamedMap& map : all) {
-        const EnvironmentTable table = build_environment_table(map.environment);
+        const EnvironmentTable table = build_environment_table(map.environment, map.sampling);
         const EnvironmentTables tables = table.tables();
         const Model model(table);
         int64_t apart = 0;
@@ -319,6 +333,48 @@ TEST(EnvironmentSampling, SamplesKnowTheirDensityAndRadiance) {
         }
         EXPECT_LE(double(apart), 50000 * 4 * (model.column_error() + model.row_error())) << map.name;
     }
+}
+
+// With MIS compensation the density is proportional to what a cell's mean has above the map's mean, or above 3/4 of it.
+TEST(EnvironmentSampling, CompensatedDensityIsTheLightAboveTheMean) {
+    size_t uneven = 0;
+    for (const auto& [sampling, share] :
+         {std::pair{EnvironmentSampling::compensated, 1.0}, std::pair{EnvironmentSampling::compensated_alone, 0.75}})
+        for (const NamedMap& map : maps()) {
+            const EnvironmentTable full = build_environment_table(map.environment);
+            const EnvironmentTable table = build_environment_table(map.environment, sampling);
+            const Model model(table);
+            // Before the parameters' scale; the density of the full map is known (CellProbabilitiesFollowTheFilteredMap).
+            const double total = dot(luminance_weights, full.texel_integral), mean = total / (4 * exact_pi);
+            const auto above = [&](const Vec3d& d, double level) {
+                return std::max(0.0, environment_pdf<float>(full.tables(), narrowed(d)) * total - level);
+            };
+            const double above_mean = model.integrate([&](const Vec3d& d) { return above(d, mean); }, 2);
+            EXPECT_NEAR(table.sampled_share, total > 0 ? above_mean / total : 0, 1e-5) << map.name;
+            if (table.sampled_share == 0) continue;
+            ++uneven;
+            const double sampled = model.integrate([&](const Vec3d& d) { return above(d, share * mean); }, 2);
+            for (int row = 0; row <= table.height; ++row)
+                for (int column = 0; column < table.width; ++column) {
+                    const statistics::Chart::Point center = model.point((row + 0.5) / (table.height + 1), (column + 0.5) / table.width);
+                    const double expected = above(center.direction, share * mean) / sampled;
+                    const double cell = center.solid_angle / ((table.height + 1) * table.width);
+                    // Of the densities in single precision, and of thresholds: a cell at the end of a row may keep 2^-32.
+                    const double error = 1e-6 * (mean / sampled + expected) + (table.width + table.height + 3) * 0x1p-32 / cell;
+                    ASSERT_NEAR(environment_pdf<float>(table.tables(), narrowed(center.direction)), expected, error)
+                        << map.name << ", cell " << column << ", " << row;
+                }
+        }
+    EXPECT_GE(uneven, 16u);
+}
+
+TEST(EnvironmentSampling, AnEvenMapIsLeftToBsdfSampling) {
+    Random random(10);
+    const auto share = [](const Environment& e) { return build_environment_table(e, EnvironmentSampling::compensated).sampled_share; };
+    EXPECT_EQ(share(map_of(16, 8, 0, [] { return 3.f; })), 0);
+    EXPECT_EQ(share(map_of(16, 8, 0, [&] { return 3 + 0.01f * random.unit(); })), 0);
+    EXPECT_GT(share(map_of(16, 8, 0, [&] { return 3 * random.unit(); })), 0.05);
+    EXPECT_GT(share(one_texel(64, 32, 9, 4, 1e6f, 1)), 0.95);
 }
 
 TEST(EnvironmentSampling, EstimatesTheIrradianceOfEveryMap) {
@@ -381,42 +437,6 @@ TEST(EnvironmentSampling, GuideTableEqualsPlainBisection) {
                 expect_same(t - 1); // of 0: the largest number there is
             }
         }
-    }
-}
-
-TEST(EnvironmentTable, ReplacesAndCountsBadTexels) {
-    const float values[] = {nan, infinite, -1.f, 1.f, 2.f, 3.f};
-    size_t next = 0;
-    Environment e = map_of(2, 1, 0, [&] { return values[next++]; });
-    e.file = "sky.exr";
-    const EnvironmentTable table = build_environment_table(e);
-    EXPECT_EQ(table.texels, (std::vector<float>{0, 0, 0, 1, 2, 3}));
-    ASSERT_EQ(table.warnings.size(), 1u);
-    EXPECT_EQ(table.warnings[0].what, "3 values are negative or not finite: read as 0");
-    EXPECT_EQ(table.warnings[0].where, "sky.exr");
-}
-
-TEST(EnvironmentTable, ReadsTheFirstThreeOfFourChannels) {
-    Environment e;
-    e.kind = Environment::Kind::image;
-    float next = 0;
-    e.image = make_float_image(2, 1, 4, [&] { return next++; });
-    EXPECT_EQ(build_environment_table(e).texels, (std::vector<float>{0, 1, 2, 4, 5, 6}));
-}
-
-TEST(EnvironmentTable, AnUnusableImageIsNoEnvironment) {
-    Environment missing, grey, lying;
-    missing.kind = grey.kind = lying.kind = Environment::Kind::image;
-    grey.image = make_float_image(4, 2, 1, [] { return 1.f; });
-    auto image = std::make_shared<Image>();
-    image->width = image->height = 60000;
-    image->channels = 3;
-    lying.image = image;
-    for (const Environment& e : {missing, grey, lying}) {
-        const EnvironmentTable table = build_environment_table(e);
-        EXPECT_EQ(table.warnings.size(), 1u);
-        EXPECT_EQ(table.integral(), (Vec3d{0, 0, 0}));
-        EXPECT_EQ(environment_radiance<float>(table.tables(), {0, 1, 0}, true), (Vec3{0, 0, 0}));
     }
 }
 

@@ -170,6 +170,9 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");
+    add_parsed(app, "--mis-compensation", o.settings.mis_compensation, parse_switch,
+               "Light sampling leaves the even part of an environment to BSDF sampling (MIS compensation) [on]")
+        ->type_name("on|off");
     add_parsed(app, "--energy-compensation", o.settings.energy_compensation, parse_switch,
                "Energy compensation for multiple scattering between microfacets [off]")
         ->type_name("on|off");

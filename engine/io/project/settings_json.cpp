@@ -114,6 +114,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["filter"] = to_string(s.filter);
     json["sampler"] = to_string(s.sampler);
     json["energy_compensation"] = s.energy_compensation;
+    json["mis_compensation"] = s.mis_compensation;
     json["adaptive"] = s.adaptive;
     json["reuse"] = reuse_text(s.reuse);
     json["clamp"] = to_string(s.clamp);
@@ -173,6 +174,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"filter", word(s.filter, parse_filter)},
         {"sampler", word(s.sampler, parse_sampler)},
         {"energy_compensation", plain(s.energy_compensation)},
+        {"mis_compensation", plain(s.mis_compensation)},
         {"adaptive", plain(s.adaptive)},
         {"reuse", word(s.reuse, parse_reuse)},
         {"clamp", word(s.clamp, parse_clamp)},

@@ -90,14 +90,23 @@ void RenderScene::update_mesh_lights(const Scene& scene, bool aim_changed) {
     geometry_.set_first_lights(mesh_lights_.first_lights);
 }
 
+EnvironmentSampling RenderScene::environment_sampling(const Scene& scene, const RenderSettings& settings) const {
+    if (aim_ != NeeLights::all_lights) return EnvironmentSampling::none;
+    if (settings.strategy != Strategy::mis || !settings.mis_compensation) return EnvironmentSampling::full;
+    return samples_other_lights(scene, mesh_lights_, light_nodes_) ? EnvironmentSampling::compensated
+                                                                   : EnvironmentSampling::compensated_alone;
+}
+
 void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
     // An environment without light needs no map, and without NEE no importance map. Linked lights need records, and are sampled
     // by NEE where rays must not find them.
     const NeeLights aim_before = aim_;
     aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? NeeLights::zero_size_lights : NeeLights::all_lights;
     const bool needs_map = gives_light(scene.environment);
-    if (plan.environment_map || aim_ != aim_before || (plan.environment_parameters && needs_map != has_environment_map_))
-        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, aim_ == NeeLights::all_lights);
+    if (plan.lights) update_mesh_lights(scene, aim_ != aim_before);
+    const EnvironmentSampling sampling = environment_sampling(scene, settings);
+    if (plan.environment_map || sampling != environment_.sampling || (plan.environment_parameters && needs_map != has_environment_map_))
+        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, sampling);
     if (plan.environment_map || aim_ != aim_before || plan.environment_parameters)
         update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;
@@ -106,8 +115,8 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     const Vec3d mean = environment_.integral() * (1 / (4 * std::numbers::pi));
     // A backdrop is visible but lights nothing.
     const bool emits_light = scene.environment.lights_scene && needs_map && environment_.emits_light;
-    update_mesh_lights(scene, aim_ != aim_before);
-    lights_ = build_light_table(scene, mesh_lights_, light_nodes_, spheres_, {emits_light, to_float(mean)}, extent_, aim_);
+    lights_ = build_light_table(scene, mesh_lights_, light_nodes_, spheres_, {emits_light, to_float(mean), environment_.sampled_share},
+                                extent_, aim_);
     lights_.fill(tables_.lights);
     update_caustic_casters(scene, settings);
     update_groups(groups);

@@ -69,6 +69,7 @@ private:
     void update_accel(const Workers& workers);
     std::vector<AccelSphere> accel_spheres() const;
     void update_mesh_lights(const Scene& scene, bool aim_changed);
+    EnvironmentSampling environment_sampling(const Scene& scene, const RenderSettings& settings) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
     void update_groups(const LightGroups* groups);
     void update_caustic_casters(const Scene& scene, const RenderSettings& settings);

@@ -121,15 +121,17 @@ const char* why_no_map(const Environment& e) {
 }
 
 constexpr const char* bsdf_sampling_only = "the strategy is BSDF sampling alone";
+constexpr const char* even_environment = "the environment is even: BSDF sampling finds its light (MIS compensation)";
 
 void add_light_table(FeatureReport& feature_report, const LightTable& lights, NeeLights aim) {
     const int64_t triangles = lights.emissive_triangles - lights.unsampled_triangles;
     const int64_t all = triangles + lights.point_lights + lights.sphere_lights + lights.sun_lights + (lights.environment >= 0);
     const bool used = lights.count > 0;
     feature_report.push_back({"lights", "light table", used,
-                              used      ? "the scene has lights"
-                              : all > 0 ? bsdf_sampling_only
-                                        : "nothing emits light",
+                              used                           ? "the scene has lights"
+                              : all == 0                     ? "nothing emits light"
+                              : aim == NeeLights::all_lights ? even_environment
+                                                             : bsdf_sampling_only,
                               light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
     if (!lights.tree.nodes.empty())
         feature_report.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
@@ -153,11 +155,12 @@ void add_lights(FeatureReport& feature_report, const LightTable& lights, const E
                    : is_sky ? "the environment is a sky"
                             : "the environment is an image",
                    0};
-    const bool is_sampled = used && aim == NeeLights::all_lights;
+    const bool is_sampled = used && aim == NeeLights::all_lights && environment.sampled_share > 0;
     FeatureUse importance{"lights", "importance map", is_sampled,
-                          is_sampled ? "the environment is sampled as a light"
-                          : used     ? bsdf_sampling_only
-                                     : why_no_map(e),
+                          is_sampled                     ? "the environment is sampled as a light"
+                          : !used                        ? why_no_map(e)
+                          : aim == NeeLights::all_lights ? even_environment
+                                                         : bsdf_sampling_only,
                           0};
     if (is_sky || (e.kind == Environment::Kind::image && e.image)) {
         const EnvironmentBytes bytes =

@@ -39,7 +39,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             F weight = F(1.f);
             if (aims) {
                 F pdf = F(0.f);
-                if (lights.environment >= 0)
+                if (lights.samples_environment)
                     pdf = environment_pdf<F>(scene.environment, path.ray.direction) *
                           light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);

@@ -22,6 +22,21 @@ using std::numbers::pi;
 constexpr int64_t max_texels = (int64_t(1) << 31) / 3 - 1;
 constexpr int64_t max_side = (1 << 24) - 1;
 
+// Part of the mean that is left to BSDF sampling, if light sampling selects the environment with probability s. Both techniques
+// together should sample in proportion to the light, so s p_light + p_bsdf is proportional to L: p_light to L - mean / (1 + s). Beside
+// a sun, s is small. Alone, s is 1; of the factors from 1/4 to 1 this one has the least error under most panoramas, and loses at most
+// 6 % to full sampling, where 1 loses 28 % (five panoramas, two models each).
+double covered_share(EnvironmentSampling sampling) {
+    switch (sampling) {
+    case EnvironmentSampling::compensated: return 1;
+    case EnvironmentSampling::compensated_alone: return 0.75;
+    default: return 0;
+    }
+}
+
+// A map whose part above the mean is smaller counts as even: a shadow ray for so little light costs more than it gains.
+constexpr double min_sampled_share = 1.0 / 64;
+
 std::string fault(const Image* image) {
     if (!image || image->width < 1 || image->height < 1 || image->channels < 3 || image->channels > 4) return "image is not RGB";
     const int64_t texels = int64_t(image->width) * image->height;
@@ -86,39 +101,74 @@ EnvironmentRow row_record(const RowBorders& borders, int width) {
 // About four columns per guide entry: one cache line of each is read, where bisection of a row reads ten.
 int guide_bits_for(size_t width) { return std::max(1, int(std::bit_width(unsigned(width))) - 2); }
 
-// A cell's weight is the integral of the filtered map over it.
-void build_importance(EnvironmentTable& table) {
-    const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
-    table.rows.reserve(row_count);
-    table.column_thresholds.reserve(row_count * width);
-    table.guide_bits = guide_bits_for(width);
-    table.column_guides.reserve(row_count * ((size_t(1) << table.guide_bits) + 1));
-    std::vector<double> row_weights, border_weights(width), cell_weights(width);
-    row_weights.reserve(row_count);
-    for (int row = 0; row < int(row_count); ++row) {
-        const RowBorders borders = row_borders(row, table.height);
+// A row of cells: the mean of the filtered map on each border between cells, over the height of the row.
+struct BorderMeans {
+    std::vector<double> luminances; // 0 only if all components are
+    Vec3d sum{0, 0, 0};             // of the colours
+
+    void read(const EnvironmentTable& table, int row) {
+        const size_t width = size_t(table.width);
+        const double lower_share = row_borders(row, table.height).lower_share(), upper_share = 1 - lower_share;
         const float* upper = &table.texels[3 * width * size_t(std::max(row - 1, 0))];
         const float* lower = &table.texels[3 * width * size_t(std::min(row, table.height - 1))];
-        const double lower_share = borders.lower_share(), upper_share = 1 - lower_share;
-        Vec3d sum{0, 0, 0};
+        luminances.resize(width);
+        sum = {0, 0, 0};
         for (size_t i = 0; i < width; ++i) {
             const float *a = upper + 3 * i, *b = lower + 3 * i;
             const Vec3d c{upper_share * a[0] + lower_share * b[0], upper_share * a[1] + lower_share * b[1],
                           upper_share * a[2] + lower_share * b[2]};
-            border_weights[i] = dot(luminance_weights, c); // luminance: 0 only if all components are
+            luminances[i] = dot(luminance_weights, c);
             sum = sum + c;
         }
-        for (size_t i = 0; i < width; ++i) cell_weights[i] = border_weights[i == 0 ? width - 1 : i - 1] + border_weights[i];
+    }
+    // Mean luminance of the filtered map on a cell.
+    double of_cell(size_t i) const { return 0.5 * (luminances[i == 0 ? luminances.size() - 1 : i - 1] + luminances[i]); }
+};
+
+// A cell's weight is the integral of the filtered map over it, or of the part above the map's mean.
+void build_importance(EnvironmentTable& table, EnvironmentSampling sampling) {
+    const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
+    BorderMeans borders;
+    for (int row = 0; row < int(row_count); ++row) {
+        borders.read(table, row);
+        table.texel_integral = table.texel_integral + borders.sum * row_borders(row, table.height).cell_solid_angle(table.width);
+    }
+    const double total = dot(luminance_weights, table.texel_integral);
+    const double mean = total / (4 * pi), left_out = covered_share(sampling) * mean;
+    double above_mean = 0;
+
+    table.rows.reserve(row_count);
+    table.column_thresholds.reserve(row_count * width);
+    table.guide_bits = guide_bits_for(width);
+    table.column_guides.reserve(row_count * ((size_t(1) << table.guide_bits) + 1));
+    std::vector<double> row_weights, cell_weights(width);
+    row_weights.reserve(row_count);
+    for (int row = 0; row < int(row_count); ++row) {
+        borders.read(table, row);
+        double above = 0;
+        for (size_t i = 0; i < width; ++i) {
+            cell_weights[i] = std::max(0.0, borders.of_cell(i) - left_out);
+            above += std::max(0.0, borders.of_cell(i) - mean);
+        }
         const std::vector<uint32_t> thresholds = make_thresholds(cell_weights);
         table.column_thresholds.insert(table.column_thresholds.end(), thresholds.begin(), thresholds.end());
         const std::vector<int32_t> guide = make_guide(thresholds, table.guide_bits);
         table.column_guides.insert(table.column_guides.end(), guide.begin(), guide.end());
-        table.rows.push_back(row_record(borders, table.width));
-        const double solid_angle = borders.cell_solid_angle(table.width);
-        row_weights.push_back(std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * solid_angle);
-        table.texel_integral = table.texel_integral + sum * solid_angle;
+        const RowBorders ends = row_borders(row, table.height);
+        table.rows.push_back(row_record(ends, table.width));
+        row_weights.push_back(std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * ends.cell_solid_angle(table.width));
+        above_mean += above * ends.cell_solid_angle(table.width);
     }
     table.row_thresholds = make_thresholds(row_weights);
+    table.sampling = sampling;
+    table.sampled_share = 1;
+    if (sampling == EnvironmentSampling::full) return;
+    const double share = total > 0 ? above_mean / total : 0;
+    table.sampled_share = share < min_sampled_share ? 0 : share;
+    if (table.sampled_share > 0) return;
+    table.row_thresholds = table.column_thresholds = {};
+    table.column_guides = {};
+    table.rows = {};
 }
 
 } // namespace
@@ -148,7 +198,7 @@ EnvironmentTables EnvironmentTable::tables() const {
             lights_scene};
 }
 
-EnvironmentTable build_environment_table(const Environment& environment, bool importance) {
+EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling) {
     const auto begin = std::chrono::steady_clock::now();
     EnvironmentTable table;
     switch (environment.kind) {
@@ -163,7 +213,7 @@ EnvironmentTable build_environment_table(const Environment& environment, bool im
             set_uniform_texel(table, 0);
         }
     }
-    if (importance) build_importance(table);
+    if (sampling != EnvironmentSampling::none) build_importance(table, sampling);
     update_environment_parameters(table, environment);
     table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return table;

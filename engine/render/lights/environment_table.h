@@ -10,6 +10,13 @@
 
 namespace blush {
 
+// The directions that light sampling aims at. compensated: those where the map is brighter than its mean, with a density
+// proportional to the difference, because BSDF sampling covers the even part well: MIS compensation (Karlik et al. 2019, "MIS
+// Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 4.1). compensated_alone: less is left out,
+// because no other light takes samples of light sampling. An even map is not sampled at all. Compensation is for MIS only: where the
+// density is 0, BSDF samples have weight 1.
+enum class EnvironmentSampling { none, full, compensated, compensated_alone };
+
 struct EnvironmentTable {
     // Size of the image; a constant environment is one white texel, no environment is one black texel.
     int32_t width = 0, height = 0, guide_bits = 1;
@@ -18,7 +25,9 @@ struct EnvironmentTable {
     std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
     Vec3d texel_integral{0, 0, 0}; // integral of the map over the sphere, sr; only with an importance map
-    bool emits_light = false;      // some texel is not black
+    double sampled_share = 0;      // of that integral's luminance: the part that light sampling aims at; 0: directions are not sampled
+    EnvironmentSampling sampling = EnvironmentSampling::none;
+    bool emits_light = false; // some texel is not black
     std::vector<Diagnostic> warnings;
     // From the parameters:
     Vec3 scale{0, 0, 0};
@@ -37,9 +46,9 @@ struct EnvironmentTable {
 // than all features except the sun's disk, which is a separate light.
 constexpr int sky_map_width = 512, sky_map_height = 256;
 
-// Warns if texels are negative or not finite (they become 0) or if the image is unusable (no environment). Without an importance
-// map it can be evaluated, but directions cannot be sampled and have no pdf.
-EnvironmentTable build_environment_table(const Environment& environment, bool importance = true);
+// Warns if texels are negative or not finite (they become 0) or if the image is unusable (no environment). Without sampling
+// it has no importance map: it can be evaluated, but directions cannot be sampled and have no pdf.
+EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling = EnvironmentSampling::full);
 // True if colour and intensity allow light; the image may still be black.
 bool gives_light(const Environment& environment);
 // Radiance in nits of a texel of 1.

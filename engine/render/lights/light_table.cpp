@@ -160,6 +160,7 @@ bool add_tree(TableBuilder& b, const std::vector<double>& powers) {
     b.table.slot_lights = {0};
     for (size_t i = 0; i < b.table.records.size(); ++i) {
         LightRecord& record = b.table.records[i];
+        if (int32_t(i) == b.table.environment && !b.table.samples_environment) continue;
         if (is_finite_light(record)) {
             LightBounds bounds = b.bounds[i];
             bounds.power = powers[i];
@@ -201,10 +202,12 @@ LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const
         record.kind = int32_t(LightKind::environment);
         record.profile = -1;
         b.table.environment = int32_t(b.table.records.size());
-        b.add_findable(record, {}, 4 * std::numbers::pi * std::numbers::pi * radius * radius * luminance_of(sky.mean));
+        b.add_findable(record, {}, 4 * std::numbers::pi * std::numbers::pi * radius * radius * luminance_of(sky.mean) * sky.sampled_share);
+        b.table.samples_environment = b.table.powers.back() > 0;
     }
     b.table.count = int32_t(b.table.records.size());
     // Emitters with zero selection probability are never returned, even for u = 1 - eps.
+    if (sky.emits_light && !b.table.samples_environment) --b.table.count;
     while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
     const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
@@ -212,6 +215,16 @@ LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const
         aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
     if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
     return std::move(b.table);
+}
+
+bool samples_other_lights(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes) {
+    WorldTransforms placements(scene);
+    const auto shines = [&](Id<Node> id) {
+        const Light& light = *scene.lights.find(scene.nodes.find(id)->light);
+        return light.enabled && !is_area_light(light) && luminance_of(light_emission(light)) > 0 && placements(id).visible;
+    };
+    return std::ranges::any_of(meshes.powers, [](double power) { return power > 0; }) || std::ranges::any_of(nodes, shines) ||
+           luminance_of(sun_of(scene.environment).lux) > 0;
 }
 
 void set_light_weights(LightTable& table, std::span<const double> factors) {
@@ -233,6 +246,7 @@ void LightTable::fill(LightTables& t) const {
     t.slot_lights = slot_lights.data();
     t.tree = tree.tables();
     t.environment = environment;
+    t.samples_environment = samples_environment;
     t.suns = suns.data();
     t.sun_count = int32_t(suns.size());
     t.first_sphere = first_sphere;

@@ -23,6 +23,7 @@ struct LightTable {
     std::vector<int32_t> suns; // indices of suns with a disk
     int32_t count = 0;         // selection slots; 0: no light is sampled
     int32_t environment = -1;
+    bool samples_environment = false; // false: it is left to BSDF sampling
     int32_t first_sphere = 0;
     LightProfiles profiles;
     LightTreeTable tree;              // empty: selection by power alone
@@ -44,11 +45,14 @@ struct LightTable {
 // NeeLights::zero_size_lights: other lights have records only if hits read them: spheres, suns, and triangles with a profile.
 struct SkyLight {
     bool emits_light = false;
-    Vec3 mean{0, 0, 0}; // radiance averaged over the sphere, nits
+    Vec3 mean{0, 0, 0};       // radiance averaged over the sphere, nits
+    double sampled_share = 1; // the part of it that light sampling aims at (environment_table.h)
 };
 // `nodes`: those with lights (expanded_lights.h).
 LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
                              const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim);
+// True if light sampling can select a light other than the environment.
+bool samples_other_lights(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes);
 // Size in bytes of a table of `lights` records.
 int64_t light_table_bytes(int64_t lights);
 

@@ -1,6 +1,7 @@
 // Environment light: constant environments, maps of one bright texel, and what the camera sees of them.
 #include "core/math.h"
 #include "tests/render/irradiance.h"
+#include "tests/support/pictures.h"
 
 #include <numbers>
 
@@ -82,6 +83,88 @@ TEST(Environment, CameraSeesTheMapInTheDirectionOfItsLight) {
         EXPECT_TRUE(is_mean(render(scene, settings_for(16, 16, 4)).whole(),
                             map_radiance(texels, double(rotation), {towards.x, towards.y, towards.z}), sidak(significance, 2), 1e-4));
     }
+}
+
+// MIS compensation: light sampling leaves the even part of the environment to BSDF sampling, and an even one takes no part in it.
+class Compensated : public ::testing::Test {
+protected:
+    // A floor, a rough and a smooth ball and a lamp or many, under `sky`.
+    static Scene under(const Environment& sky, int lamps) {
+        Scene scene;
+        scene.environment = sky;
+        place(scene, floor_quad(2), lambert(0.7f));
+        place(scene, sphere(true), metal(0.3f), at({-0.7f, 0.5f, 0}, 0.5f));
+        place(scene, sphere(true), glass(0, 1.5f), at({0.7f, 0.5f, 0}, 0.5f));
+        for (int i = 0; i < lamps; ++i) {
+            Light lamp;
+            lamp.kind = i % 2 ? Light::Kind::sphere : Light::Kind::point;
+            lamp.radius = i % 2 ? 0.1f : 0;
+            lamp.intensity = 3.f / float(lamps);
+            shine(scene, lamp, at({float(i % 7) * 0.5f - 1.5f, 1.2f, float(i / 7) * 0.5f - 1.5f}));
+        }
+        scene.view = looking({0, 2, 4}, {0, 0.4f, 0}, 0.5f);
+        return scene;
+    }
+    static Environment even() {
+        Environment sky;
+        sky.kind = Environment::Kind::constant;
+        sky.color = {0.3f, 0.5f, 0.7f};
+        return sky;
+    }
+    static Environment uneven() {
+        std::vector<Vec3> texels(map_width * map_height, Vec3{0.2f, 0.3f, 0.4f});
+        for (int column = 0; column < map_width; ++column) texels[size_t(2 * map_width + column)] = {0.6f, 0.6f, 0.6f};
+        texels[size_t(map_width + 3)] = {15, 12, 9};
+        return under_map(texels, 30).environment;
+    }
+    static RenderSettings settings(bool compensates, Strategy strategy = Strategy::mis) {
+        RenderSettings s = settings_for(16, 16, strategy == Strategy::mis ? 256 : 1024);
+        s.mis_compensation = compensates;
+        s.strategy = strategy;
+        s.seed = 1 + uint32_t(strategy) + (compensates ? 8 : 0);
+        return s;
+    }
+    static std::vector<Measured> blocks(const Scene& scene, const RenderSettings& s) { return render(scene, s).blocks(8, 8); }
+};
+
+TEST_F(Compensated, AgreesWithAllStrategies) {
+    const std::pair<Environment, int> cases[] = {{even(), 0}, {even(), 1}, {even(), 40}, {uneven(), 0}, {uneven(), 1}, {uneven(), 40}};
+    for (const auto& [sky, lamps] : cases) {
+        const Scene scene = under(sky, lamps);
+        const double alpha = sidak(significance, 3 * std::ssize(cases));
+        const auto compensated = blocks(scene, settings(true));
+        const std::string name = std::to_string(lamps) + " lamps, sky " + std::to_string(int(sky.kind));
+        EXPECT_TRUE(same_means(compensated, blocks(scene, settings(false)), alpha)) << name;
+        EXPECT_TRUE(same_means(compensated, blocks(scene, settings(false, Strategy::bsdf)), alpha)) << name << ", bsdf";
+        RenderSettings shared = settings(true);
+        shared.reuse = 8;
+        shared.seed = 77;
+        EXPECT_TRUE(same_means(compensated, blocks(scene, shared), alpha)) << name << ", path reuse";
+    }
+}
+
+// Of other strategies it changes nothing.
+TEST_F(Compensated, OnlyChangesMis) {
+    for (const Strategy strategy : {Strategy::light, Strategy::bsdf, Strategy::mis}) {
+        RenderSettings on = settings(true, strategy), off = on;
+        on.spp = off.spp = 4;
+        off.mis_compensation = false;
+        const Scene scene = under(uneven(), 1);
+        EXPECT_EQ(same_picture(fresh_picture(scene, on, 4), fresh_picture(scene, off, 4)), strategy != Strategy::mis);
+    }
+}
+
+TEST_F(Compensated, AnEvenSkyTakesNoSamplesOfLamps) {
+    const auto shadow_rays = [](const Scene& scene, bool compensates) {
+        RenderSettings s = settings(compensates);
+        s.spp = 4;
+        return fresh_picture(scene, s, 4).rays.shadow;
+    };
+    EXPECT_EQ(shadow_rays(under(even(), 0), true), 0);
+    EXPECT_GT(shadow_rays(under(even(), 0), false), 0);
+    // All shadow rays go to the lamps: as many as without a sky, up to where paths end.
+    EXPECT_GT(shadow_rays(under(even(), 1), true), 0);
+    EXPECT_GT(shadow_rays(under(uneven(), 0), true), 0);
 }
 
 TEST(Environment, HiddenFromTheCameraItStillLights) {
