@@ -23,7 +23,7 @@ template <class F> F through_clearcoat(const F& clearcoat, const F& cos) { retur
 // Sets everything except the probability.
 template <Features S, class F>
 Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo_surface, const EnergyTable* energy) {
-    Clearcoat<F> coat{};
+    Clearcoat<F> coat;
     const Vec<F> wo = upper_wo(b, wo_surface), z{F(0.f), F(0.f), F(1.f)};
     // For a viewer inside, flips the coat's normal.
     const Vec<F>& n = m.clearcoat_normal;

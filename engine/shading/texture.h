@@ -74,7 +74,7 @@ template <class F> Vec<F> rgb(const Vec4T<F>& c) { return {c.x, c.y, c.z}; }
 template <class F> struct TexturePoint {
     // The first TextureTables::uv_sets entries of each are valid.
     std::array<Vec2T<F>, max_uv_sets> uv;
-    std::array<F, max_uv_sets> width{}; // of the footprint, in units of uv; 0: a point
+    std::array<F, max_uv_sets> width; // of the footprint, in units of uv; 0: a point
 };
 
 // The two texels along one axis around a coordinate, both in [0, size), and the weight of the second.

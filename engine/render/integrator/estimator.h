@@ -67,17 +67,18 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     if constexpr (S.has(Feature::textures)) cone = cone_width<F>(scene.camera, settings, path, hit.t);
     const F width = filter_width<S, F>(scene, hit, cone, bounce, lanes.surface);
     const Surface<F> surface = surface_at<S, F>(scene, hit, lanes.surface, width);
-    const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, lanes.surface);
+    MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, lanes.surface);
     const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
 
     Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, lanes.surface);
     out.weights.arriving = beta;
     hit_emitter<S, F>(scene, settings.strategy, path, hit, surface.part, material, side, beta, lanes.surface, out);
     const Mask<F> scatters = hit_unlit<S, F>(material, beta, lanes.surface, out);
-    ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
-    const Mask<F> dispersed = disperse<S, F>(path, material, side, scatters, shading.params.ior, beta);
-    const Bsdf<F> bsdf = make_bsdf<S, F>(shading.params, shading.wo, settings.energy);
-    const ShadingPoint<F> p{surface, shading, bsdf, beta, scatters, scatters && is_lambertian<S, F>(bsdf), side.solid, dispersed};
+    const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
+    const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
+    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
+    const ShadingPoint<F> p{surface,    material.bsdf, shading, bsdf, beta, scatters, scatters && is_lambertian<S, F>(bsdf),
+                            side.solid, dispersed};
     if (bounce == 0) first_hit_planes<S, F>(scene, hit, lanes, p, side.wo, out.emitted, out.first);
     if (bounce <= 1) set_reuse_vertex<F>(p, out.reuse_vertex);
     if (bounce >= settings.max_bounces) return out;

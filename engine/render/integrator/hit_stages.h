@@ -128,13 +128,13 @@ template <Features S, class F> [[gnu::always_inline]] inline Mask<F> hit_unlit(c
 // Dispersive solids: a path that meets its first one gets a single wavelength, whose index of refraction replaces `ior`
 // (dispersion.h). Returns the lanes that carry one.
 template <Features S, class F> [[gnu::always_inline]] inline Mask<F>
-disperse(const Path<F>& path, const MaterialPoint<F>& material, const HitSide<F>& side, const Mask<F>& scatters, F& ior, Vec<F>& beta) {
+disperse(const Path<F>& path, const F& dispersion, const HitSide<F>& side, const Mask<F>& scatters, F& ior, Vec<F>& beta) {
     if constexpr (!S.has(Feature::dispersion)) return Mask<F>(false);
     const Mask<F> dispersed = as_mask(path.dispersed != 0);
-    const Mask<F> splits = scatters && side.solid && material.dispersion > F(0.f);
+    const Mask<F> splits = scatters && side.solid && dispersion > F(0.f);
     if (!any(splits)) return dispersed;
     const Wavelength<F> light = wavelength_of(Sampler<F>{path.key, path.index});
-    ior = select(splits, dispersed_ior(ior, material.dispersion, light.nanometres), ior);
+    ior = select(splits, dispersed_ior(ior, dispersion, light.nanometres), ior);
     beta = select<F>(splits && !dispersed, beta * light.rgb, beta);
     return dispersed || splits;
 }
@@ -142,6 +142,7 @@ disperse(const Path<F>& path, const MaterialPoint<F>& material, const HitSide<F>
 // A surface point with its BSDF. Refers to its parts, because the compiler does not remove copies of them.
 template <class F> struct ShadingPoint {
     const Surface<F>& surface;
+    const BsdfParams<F>& params;
     const ShadingFrame<F>& shading;
     const Bsdf<F>& bsdf;
     Vec<F> beta; // throughput of the path up to here

@@ -155,8 +155,8 @@ template <Features S, class F> [[gnu::always_inline]] inline void roulette(const
     Vec<F> rr_beta = beta * (1.f / s.pdf_ratio);
     if constexpr (S.has(Feature::transmission)) {
         // Refraction into a solid scales beta by 1 / ior^2, which is undone on exit: undo it here too.
-        const F eta_squared = p.shading.params.ior * p.shading.params.ior;
-        rr_beta = select<F>(p.solid && !s.outward && p.shading.params.ior > F(0.f), rr_beta * eta_squared, rr_beta);
+        const F eta_squared = p.params.ior * p.params.ior;
+        rr_beta = select<F>(p.solid && !s.outward && p.params.ior > F(0.f), rr_beta * eta_squared, rr_beta);
     }
     // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
     // scenes with delta lobes only.

@@ -44,15 +44,15 @@ template <Features S, class F> Basis<F> shading_frame(const Surface<F>& s, const
     }
 }
 
-// A surface point with the parameters for its BSDF.
+// The frame in which a surface point scatters.
 template <class F> struct ShadingFrame {
     Vec<F> ng, ns;  // unit, world: flipped towards the viewer unless the surface bounds a solid
     Mask<F> behind; // the viewer sees the back of the interpolated or mapped normal: ns is ng
     Basis<F> frame;
-    Vec<F> wo;            // in `frame`
-    BsdfParams<F> params; // including those that depend on the frame
+    Vec<F> wo; // in `frame`
 };
-template <Features S, class F> ShadingFrame<F> shading_frame_at(const Surface<F>& surface, const MaterialPoint<F>& material,
+// Sets the parameters of material.bsdf that depend on the frame.
+template <Features S, class F> ShadingFrame<F> shading_frame_at(const Surface<F>& surface, MaterialPoint<F>& material,
                                                                 const Vec<F>& wo_world, const Mask<F>& front, const Mask<F>& solid) {
     ShadingFrame<F> s;
     s.ng = select<F>(front || solid, surface.ng, -surface.ng);
@@ -62,12 +62,11 @@ template <Features S, class F> ShadingFrame<F> shading_frame_at(const Surface<F>
     s.ns = select<F>(s.behind, s.ng, bent);
     s.frame = shading_frame<S, F>(surface, s.ns, material);
     s.wo = s.frame.to_local(wo_world);
-    s.params = material.bsdf;
     // The coat does not follow the normal map of the base.
     if constexpr (S.has(Feature::clearcoat))
-        s.params.layers.clearcoat_normal = s.frame.to_local(shading_normal<S, F>(surface, s.ng, material.clearcoat_tangent_normal));
+        material.bsdf.layers.clearcoat_normal = s.frame.to_local(shading_normal<S, F>(surface, s.ng, material.clearcoat_tangent_normal));
     if constexpr (S.has(Feature::anisotropy))
-        s.params.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
+        material.bsdf.layers.anisotropy = select(surface.has_tangents, material.anisotropy.strength, F(0.f));
     return s;
 }
 

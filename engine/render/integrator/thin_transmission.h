@@ -34,12 +34,12 @@ template <Features S, class F> [[gnu::noinline]] PanePoint<F> pane_at(const Scen
                                                                       const Vec<F>& direction, const Hit<F>& hit, const F& cone,
                                                                       const Mask<F>& active) {
     const Surface<F> surface = surface_at<S, F>(scene, hit, active, cone);
-    const MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, active);
+    MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, active);
     const Vec<F> wo_world = -direction;
     const F outside = dot(surface.ng, wo_world);
     const Mask<F> front = outside > F(0.f);
     const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, wo_world, front, Mask<F>(false));
-    const Bsdf<F> bsdf = make_bsdf<S, F>(shading.params, shading.wo, energy);
+    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, energy);
     PanePoint<F> p;
     p.through = straight_transmission<S, F>(bsdf, shading.wo);
     p.position = surface.position;
