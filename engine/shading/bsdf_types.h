@@ -33,9 +33,9 @@ template <class F> struct BsdfParams {
     F ior;       // relative to vacuum, >= 1; or 0, which reflects like a mirror (KHR_materials_ior)
     F specular;  // KHR_materials_specular; 0: no dielectric reflection
     Vec<F> specular_color;
-    F transmission;        // KHR_materials_transmission
-    Mask<F> thin;          // transmits without refraction, has no inside
-    LayerParams<F> layers; // members of the features in use
+    F transmission; // KHR_materials_transmission
+    Mask<F> thin;   // transmits without refraction, has no inside
+    LayerParams<F> layers{};
 };
 
 // Delta lobes are covered by sample() only.
