@@ -24,7 +24,7 @@ struct LightRecord {
     int32_t triangle;
     int32_t profile;   // index of the ProfileRecord that scales the emission by direction, -1: none
     int32_t object;    // sphere: Id<Node>.value of its node
-    int32_t slot;      // with a tree: its selection slot; 0 is the tree's
+    int32_t slot;      // with a tree: its selection slot, which is > 0; in the tree ~ its entry
     Vec3 position;     // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
     Vec3 edge1, edge2; // triangle: vertices 1 and 2 minus vertex 0
     // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
@@ -81,9 +81,9 @@ F light_probability(const LightTables& table, const Receiver<F>& to, const Int<F
     if constexpr (S.has(Feature::light_tree)) {
         if (table.tree.nodes) {
             const Int<F> slot = gather_field(table.lights, &LightRecord::slot, light);
-            const F p = discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), slot);
-            const Mask<F> in_tree = active && as_mask(slot == 0);
-            return any(in_tree) ? select(in_tree, p * tree_probability<F>(table.tree, to, light, in_tree), p) : p;
+            const F p = discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), max(slot, Int<F>(0)));
+            const Mask<F> in_tree = active && as_mask(slot < 0);
+            return any(in_tree) ? select(in_tree, p * tree_probability<F>(table.tree, to, Int<F>(~slot), light, in_tree), p) : p;
         }
     }
     return discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), light);

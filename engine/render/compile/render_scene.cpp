@@ -80,13 +80,13 @@ void RenderScene::update_caustic_casters(const Scene& scene, const RenderSetting
 }
 
 // Records of emissive meshes, if these, their materials or area lights changed.
-void RenderScene::update_mesh_lights(const Scene& scene, bool aim_changed) {
+void RenderScene::update_mesh_lights(const Scene& scene, bool aim_changed, const Workers& workers) {
     std::vector<float> spreads;
     for (const size_t i : panels_) spreads.push_back(light_of_expanded_mesh(scene, objects_[i].node)->spread_radians);
     const bool panels_changed = changed_.origin || changed_.panels || spreads != panel_spreads_;
     if (!changed_.objects && !changed_.emission && !panels_changed && !aim_changed) return;
     panel_spreads_ = std::move(spreads);
-    mesh_lights_ = build_mesh_lights(scene, geometry_, tables_, emissive_parts_, aim_);
+    mesh_lights_ = build_mesh_lights(scene, geometry_, tables_, emissive_parts_, aim_, mesh_lights_, workers);
     geometry_.set_first_lights(mesh_lights_.first_lights);
 }
 
@@ -97,13 +97,14 @@ EnvironmentSampling RenderScene::environment_sampling(const Scene& scene, const 
                                                                    : EnvironmentSampling::compensated_alone;
 }
 
-void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups) {
+void RenderScene::update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
+                                const LightGroups* groups) {
     // An environment without light needs no map, and without NEE no importance map. Linked lights need records, and are sampled
     // by NEE where rays must not find them.
     const NeeLights aim_before = aim_;
     aim_ = settings.strategy == Strategy::bsdf && !has_links(scene) ? NeeLights::zero_size_lights : NeeLights::all_lights;
     const bool needs_map = gives_light(scene.environment);
-    if (plan.lights) update_mesh_lights(scene, aim_ != aim_before);
+    if (plan.lights) update_mesh_lights(scene, aim_ != aim_before, workers);
     const EnvironmentSampling sampling = environment_sampling(scene, settings);
     if (plan.environment_map || sampling != environment_.sampling || (plan.environment_parameters && needs_map != has_environment_map_))
         environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, sampling);
@@ -116,7 +117,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     // A backdrop is visible but lights nothing.
     const bool emits_light = scene.environment.lights_scene && needs_map && environment_.emits_light;
     lights_ = build_light_table(scene, mesh_lights_, light_nodes_, spheres_, {emits_light, to_float(mean), environment_.sampled_share},
-                                extent_, aim_);
+                                extent_, aim_, workers);
     lights_.fill(tables_.lights);
     update_caustic_casters(scene, settings);
     update_groups(groups);
@@ -154,7 +155,7 @@ void RenderScene::update(const Scene& scene, const RenderSettings& settings, con
     changed_ = {};
     update_materials(scene, plan, workers);
     update_geometry(scene, plan, workers);
-    update_lights(scene, settings, plan, groups);
+    update_lights(scene, settings, plan, workers, groups);
     if (plan.camera || changed_.origin)
         tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);
     if (plan.features) features_ = compute_features(scene, settings);

@@ -68,9 +68,10 @@ private:
     void update_sphere_masks(const Scene& scene);
     void update_accel(const Workers& workers);
     std::vector<AccelSphere> accel_spheres() const;
-    void update_mesh_lights(const Scene& scene, bool aim_changed);
+    void update_mesh_lights(const Scene& scene, bool aim_changed, const Workers& workers);
     EnvironmentSampling environment_sampling(const Scene& scene, const RenderSettings& settings) const;
-    void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const LightGroups* groups);
+    void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
+                       const LightGroups* groups);
     void update_groups(const LightGroups* groups);
     void update_caustic_casters(const Scene& scene, const RenderSettings& settings);
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;

@@ -30,7 +30,7 @@ constexpr FeatureText feature_texts[] = {
     {Feature::point_lights, "point lights", "the scene has points or spots of zero size", "the scene has no points or spots of zero size"},
     {Feature::sphere_lights, "sphere lights", "the scene has sphere lights", "the scene has no sphere lights"},
     {Feature::light_profiles, "light profiles", "a light has an IES profile or a spread", "no light has an IES profile or a spread"},
-    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights, or more than the limit of a tree"},
+    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights"},
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},

@@ -20,18 +20,27 @@ namespace {
 struct TableBuilder {
     NeeLights aim = NeeLights::all_lights;
     LightTable table;
-    std::vector<LightBounds> bounds; // by record; unused for suns and the environment
+    std::vector<LightBounds> bounds; // by entry of the light tree
     int64_t luminaires = 0;          // at finite distance; a panel counts once, not per triangle
 
-    void add(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
+    // `where`: of a light at finite distance; null: it is at infinity.
+    void add(const LightRecord& record, Id<Node> node, double power, const LightBounds* where = nullptr) {
+        if (where) {
+            add_entry({nullptr, int32_t(table.records.size()), no_trail}, *where);
+            ++luminaires;
+        }
         table.records.push_back(record);
+        if (where) table.records.back().slot = ~(int32_t(bounds.size()) - 1);
         table.nodes.push_back(node);
         table.powers.push_back(usable_power(power));
-        bounds.push_back(where);
     }
     // Adds a light that rays can also hit.
-    void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds& where = {}) {
+    void add_findable(const LightRecord& record, Id<Node> node, double power, const LightBounds* where = nullptr) {
         add(record, node, aim == NeeLights::all_lights ? power : 0, where);
+    }
+    void add_entry(const LightTreeEntry& entry, const LightBounds& where) {
+        table.tree.entries.push_back(entry);
+        bounds.push_back(where);
     }
     void add_all(const MeshLights& meshes) {
         table.records = meshes.records;
@@ -40,7 +49,10 @@ struct TableBuilder {
         table.profiles = meshes.profiles;
         table.emissive_triangles = meshes.emissive_triangles;
         table.unsampled_triangles = meshes.unsampled_triangles;
-        bounds = meshes.bounds;
+        for (const MeshLightEntry& entry : meshes.entries) {
+            add_entry({entry.tree ? &entry.tree->tables() : nullptr, entry.light, no_trail}, entry.bounds);
+            if (entry.tree) table.tree.meshes.push_back(entry.tree);
+        }
         luminaires = meshes.luminaires;
     }
 };
@@ -49,14 +61,14 @@ struct TableBuilder {
 LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
     LightBounds b;
     const Vec3d c = to_double(center), r{radius, radius, radius};
-    b.low = c - r;
-    b.high = c + r;
+    b.low = to_float(c - r);
+    b.high = to_float(c + r);
     const Vec3d axis = world.z * -1.0;
     const bool is_spot = light.kind == Light::Kind::spot && dot(axis, axis) > 0;
-    b.axis = is_spot ? normalize(axis) : Vec3d{0, 0, -1};
-    b.theta_o = is_spot ? double(light.inner_cone_radians) : std::numbers::pi;
-    b.theta_e =
-        is_spot ? std::min(double(light.outer_cone_radians) - b.theta_o + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
+    constexpr float right_angle = 0.5f * std::numbers::pi_v<float>;
+    b.axis = is_spot ? to_float(normalize(axis)) : Vec3{0, 0, -1};
+    b.theta_o = is_spot ? light.inner_cone_radians : std::numbers::pi_v<float>;
+    b.theta_e = is_spot ? std::min(light.outer_cone_radians - b.theta_o + float(angle_margin), right_angle) : right_angle;
     return b;
 }
 
@@ -77,9 +89,8 @@ void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLi
         record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
-        ++b.luminaires;
-        b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share,
-                       ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node));
+        const LightBounds bounds = ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node);
+        b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share, &bounds);
     }
 }
 
@@ -122,15 +133,13 @@ void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node
         record.position = to_float(world.t - origin);
         record.emission = emission;
         ++b.table.point_lights;
-        ++b.luminaires;
-        b.add(record, id, 4 * std::numbers::pi * luminance_of(emission) * profile.share, ball_bounds(record.position, 0, *light, world));
+        const LightBounds bounds = ball_bounds(record.position, 0, *light, world);
+        b.add(record, id, 4 * std::numbers::pi * luminance_of(emission) * profile.share, &bounds);
     }
 }
 
-// One sample in 64 is distributed uniformly over all lights (defensive mixture, Hesterberg 1995): a light that is weak in the
-// whole scene may be the only one in a room. Other lights lose at most 1/64 of their samples.
+// A part of the samples is distributed uniformly over all lights (uniform_share).
 std::vector<double> with_defensive_mixture(std::span<const double> powers, std::span<const double> factors) {
-    constexpr double share = 1.0 / 64;
     std::vector<double> weights(powers.begin(), powers.end());
     double total = 0, shining = 0;
     for (size_t i = 0; i < weights.size(); ++i) {
@@ -139,52 +148,58 @@ std::vector<double> with_defensive_mixture(std::span<const double> powers, std::
         shining += powers[i] > 0;
     }
     for (size_t i = 0; i < weights.size(); ++i)
-        if (powers[i] > 0) weights[i] = (1 - share) * (total > 0 ? weights[i] / total : 0) + share / shining;
+        if (powers[i] > 0) weights[i] = (1 - uniform_share) * (total > 0 ? weights[i] / total : 0) + uniform_share / shining;
     return weights;
 }
 
-// Powers by slot, for a table with a tree.
-std::vector<double> slot_powers(const LightTable& table, std::span<const double> powers) {
-    std::vector<double> slots(table.slot_lights.size(), 0.0);
-    for (size_t i = 0; i < powers.size(); ++i) slots[size_t(table.records[i].slot)] += powers[i];
-    return slots;
+// Powers of the tree's entries, and by slot; of a table with a tree.
+struct TablePowers {
+    std::vector<double> entries, slots;
+};
+TablePowers table_powers(const LightTable& table, std::span<const double> powers) {
+    TablePowers p{std::vector(table.tree.entries.size(), 0.0), std::vector(table.slot_lights.size(), 0.0)};
+    for (size_t i = 0; i < powers.size(); ++i) {
+        const int32_t slot = table.records[i].slot;
+        (slot < 0 ? p.entries[size_t(~slot)] : p.slots[size_t(slot)]) += powers[i];
+    }
+    for (const double power : p.entries) p.slots[0] += power;
+    return p;
 }
 
 // Puts lights at finite distance into a tree, which uses the first slot; each other light gets its own slot. False, and no tree,
 // if no light at finite distance emits.
-bool add_tree(TableBuilder& b, const std::vector<double>& powers) {
-    const auto is_finite_light = [](const LightRecord& r) {
-        return r.kind != int32_t(LightKind::sun) && r.kind != int32_t(LightKind::environment);
-    };
-    std::vector<LightBounds> in_tree;
-    b.table.slot_lights = {0};
-    for (size_t i = 0; i < b.table.records.size(); ++i) {
-        LightRecord& record = b.table.records[i];
-        if (int32_t(i) == b.table.environment && !b.table.samples_environment) continue;
-        if (is_finite_light(record)) {
-            LightBounds bounds = b.bounds[i];
-            bounds.power = powers[i];
-            bounds.light = int32_t(i);
-            in_tree.push_back(bounds);
-        } else {
-            record.slot = int32_t(b.table.slot_lights.size());
-            b.table.slot_lights.push_back(int32_t(i));
-        }
+bool add_tree(TableBuilder& b, const std::vector<double>& powers, const Workers& workers) {
+    LightTable& table = b.table;
+    table.slot_lights = {0};
+    for (size_t i = 0; i < table.records.size(); ++i) {
+        LightRecord& record = table.records[i];
+        if (record.slot < 0 || (int32_t(i) == table.environment && !table.samples_environment)) continue;
+        record.slot = int32_t(table.slot_lights.size());
+        table.slot_lights.push_back(int32_t(i));
     }
-    b.table.tree = build_light_tree(std::move(in_tree), int32_t(b.table.records.size()));
-    if (b.table.tree.nodes.empty()) {
-        b.table.slot_lights.clear();
+    const TablePowers p = table_powers(table, powers);
+    for (size_t i = 0; i < b.bounds.size(); ++i) b.bounds[i].power = p.entries[i];
+    LightTreeShape shape = build_light_tree(b.bounds, workers);
+    if (shape.nodes.empty()) {
+        table.slot_lights.clear();
         return false;
     }
-    b.table.thresholds = make_thresholds(slot_powers(b.table, powers));
-    b.table.count = int32_t(b.table.slot_lights.size());
+    for (size_t i = 0; i < shape.trails.size(); ++i) table.tree.entries[i].trail = shape.trails[i];
+    for (LightTreeNode& node : shape.nodes)
+        for (int32_t& child : node.child)
+            if (child < 0) child = ~shape.items[size_t(~child)];
+    set_light_tree_powers(shape.nodes, p.entries);
+    table.tree.nodes = std::move(shape.nodes);
+    table.thresholds = make_thresholds(p.slots);
+    table.count = int32_t(table.slot_lights.size());
     return true;
 }
 
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
-                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim) {
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim,
+                             const Workers& workers) {
     TableBuilder b;
     b.aim = aim;
     if (const int corners = disk_corners(scene, nodes); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
@@ -211,9 +226,11 @@ LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const
     while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
     const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
-    const bool many =
-        aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree && int64_t(powers.size()) <= max_lights_for_a_tree;
-    if (!many || !add_tree(b, powers)) b.table.thresholds = make_thresholds(powers);
+    const bool many = aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree;
+    if (!many || !add_tree(b, powers, workers)) {
+        b.table.tree = {};
+        b.table.thresholds = make_thresholds(powers);
+    }
     return std::move(b.table);
 }
 
@@ -233,8 +250,9 @@ void set_light_weights(LightTable& table, std::span<const double> factors) {
         table.thresholds = make_thresholds(weights);
         return;
     }
-    set_light_tree_powers(table.tree, weights);
-    table.thresholds = make_thresholds(slot_powers(table, weights));
+    const TablePowers p = table_powers(table, weights);
+    set_light_tree_powers(table.tree.nodes, p.entries);
+    table.thresholds = make_thresholds(p.slots);
 }
 
 int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }

@@ -40,7 +40,8 @@ struct LightTable {
 // sphere, 4 pi I for a point, times the factor of its profile; for suns and sky the flux through the sphere of radius R around
 // the scene's bounds: pi R^2 E and 4 pi^2 R^2 L (Pharr, Jakob, Humphreys, section 12.6). Positions are relative to the extent's
 // origin. One sample in 64 is distributed uniformly over all lights, so that a weak light is found where it is the only one. If
-// there are many lights at finite distance, a light tree is built, which is selected by their total power.
+// there are many lights at finite distance, a light tree is built, which is selected by their total power. The trees of meshes are those
+// of `meshes`.
 //
 // NeeLights::zero_size_lights: other lights have records only if hits read them: spheres, suns, and triangles with a profile.
 struct SkyLight {
@@ -50,7 +51,8 @@ struct SkyLight {
 };
 // `nodes`: those with lights (expanded_lights.h).
 LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
-                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim);
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim,
+                             const Workers& workers);
 // True if light sampling can select a light other than the environment.
 bool samples_other_lights(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes);
 // Size in bytes of a table of `lights` records.

@@ -1,5 +1,6 @@
 #include "render/lights/light_tree.h"
 
+#include "core/distribution.h"
 #include "core/math.h"
 #include "scene/affine.h"
 
@@ -12,129 +13,157 @@
 namespace blush {
 namespace {
 
-constexpr int splits_per_level = tree_branch_bits;
-constexpr int max_splits = 32 / tree_branch_bits * tree_branch_bits; // levels above a leaf; limited by the bits of a trail
+// Nodes above a leaf. The bits of a trail; those of one level are left over, so that no_trail is no trail.
+constexpr int max_levels = 32 / tree_branch_bits - 1;
+// Subtrees of the root are built in parallel from here.
+constexpr size_t parallel_items = size_t(1) << 13;
 
-double component(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-Vec3d lower(const Vec3d& a, const Vec3d& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3d upper(const Vec3d& a, const Vec3d& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+Vec3 lower(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 upper(const Vec3& a, const Vec3& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-// The smallest cone that contains both (Pharr, Jakob, Humphreys, 3.8.4).
-void unite_cones(LightBounds& a, const LightBounds& b) {
-    if (a.theta_o >= std::numbers::pi) return;
-    const double cosine = std::clamp(dot(a.axis, b.axis), -1.0, 1.0);
-    // Surely inside: the margin is far above the rounding error of the arc cosine, which takes most of the time.
-    if (b.theta_o == 0 && cosine > a.cos_o + 1e-9) return;
-    const double between = std::acos(cosine);
-    if (std::min(between + b.theta_o, std::numbers::pi) <= a.theta_o) return;
-    if (std::min(between + a.theta_o, std::numbers::pi) <= b.theta_o) {
-        a.axis = b.axis;
-        a.theta_o = b.theta_o;
-        a.cos_o = b.cos_o;
-        return;
+struct Item {
+    LightBounds bounds;
+    int32_t index = 0;
+};
+
+// Unlike LightBounds, sums need no trigonometry. The mean of the axes stands for their cone: that of a uniform cap of half angle o has
+// the length (1 + cos o) / 2.
+struct Sum {
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
+    Vec3d axis{0, 0, 0}; // times power
+    double power = 0;
+    float theta_o = 0, theta_e = 0;
+
+    void add(const LightBounds& b, const Vec3& reference) {
+        low = power > 0 ? lower(low, b.low) : b.low;
+        high = power > 0 ? upper(high, b.high) : b.high;
+        axis = axis + to_double(b.axis) * (b.two_sided && dot(b.axis, reference) < 0 ? -b.power : b.power);
+        power += b.power;
+        theta_o = std::max(theta_o, b.theta_o);
+        theta_e = std::max(theta_e, b.theta_e);
     }
-    const double theta = 0.5 * (a.theta_o + between + b.theta_o), turn = theta - a.theta_o;
-    const Vec3d about = cross(a.axis, b.axis);
-    if (theta >= std::numbers::pi || !(dot(about, about) > 0)) {
-        a.theta_o = std::numbers::pi;
-        a.cos_o = -1;
-        return;
+    void add(const Sum& s) {
+        if (s.power <= 0) return;
+        low = power > 0 ? lower(low, s.low) : s.low;
+        high = power > 0 ? upper(high, s.high) : s.high;
+        axis = axis + s.axis;
+        power += s.power;
+        theta_o = std::max(theta_o, s.theta_o);
+        theta_e = std::max(theta_e, s.theta_e);
     }
-    const Vec3d aside = normalize(cross(about, a.axis));
-    a.axis = normalize(a.axis * std::cos(turn) + aside * std::sin(turn));
-    a.theta_o = theta;
-    a.cos_o = std::cos(theta);
+
+    // Surface area orientation heuristic: power times the box's area times the integral of the cone's cosine bound.
+    double cost() const {
+        if (power <= 0) return 0;
+        const Vec3d size = to_double(high) - to_double(low);
+        const double area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+        const double cap = std::acos(std::clamp(2 * length(axis) / power - 1, -1.0, 1.0));
+        const double o = std::min(cap + double(theta_o), std::numbers::pi), w = std::min(o + double(theta_e), std::numbers::pi);
+        const double sin_o = std::sin(o), cos_o = std::cos(o);
+        const double cone =
+            2 * std::numbers::pi * (1 - cos_o) + std::numbers::pi / 2 * (2 * w * sin_o - std::cos(o - 2 * w) - 2 * o * sin_o + cos_o);
+        return power * cone * (area + 1e-6 * dot(size, size));
+    }
+};
+
+// Bounds of all items. The axes of two-sided ones may be turned around.
+LightBounds bounds_of(std::span<const Item> items) {
+    LightBounds all = items[0].bounds;
+    if (items.size() == 1) return all;
+    const Vec3 reference = all.axis;
+    Sum sum;
+    for (const Item& item : items) {
+        sum.add(item.bounds, reference);
+        all.two_sided |= item.bounds.two_sided;
+    }
+    all.low = sum.low;
+    all.high = sum.high;
+    all.power = sum.power;
+    all.theta_e = sum.theta_e;
+    all.theta_o = std::numbers::pi_v<float>;
+    if (sum.theta_o >= all.theta_o || !(length(sum.axis) > 1e-3 * sum.power)) return all;
+    const Vec3d axis = normalize(sum.axis);
+    double narrowest = 1, widest = 0; // cosine to the axes without a cone of their own; angle of the others
+    for (const Item& item : items) {
+        const double cosine = dot(to_double(item.bounds.axis), axis);
+        const double turned = item.bounds.two_sided ? std::abs(cosine) : cosine;
+        if (item.bounds.theta_o > 0)
+            widest = std::max(widest, std::acos(std::clamp(turned, -1.0, 1.0)) + double(item.bounds.theta_o));
+        else
+            narrowest = std::min(narrowest, turned);
+    }
+    constexpr double margin = 1e-5; // for rounding of the axis
+    all.axis = to_float(axis);
+    all.theta_o = float(std::min(std::max(widest, std::acos(std::max(narrowest, -1.0))) + margin, std::numbers::pi));
+    return all;
 }
 
-// Empty bounds have power 0.
-void unite(LightBounds& a, const LightBounds& b) {
-    if (b.power <= 0) return;
-    if (a.power <= 0) {
-        a = b;
-        return;
+void set_child(LightTreeNode& node, int k, const LightBounds& b) {
+    const Vec3d low = to_double(b.low), high = to_double(b.high);
+    const Vec3 center = to_float((low + high) * 0.5);
+    // Rounded up, so that the box contains the lights and the sphere contains the box.
+    const Vec3d half = (high - low) * (0.5 * (1 + 1e-6)) + to_double(abs(center)) * 0x1p-24;
+    for (int axis = 0; axis < 3; ++axis) {
+        node.center[axis][k] = component(center, axis);
+        node.half[axis][k] = component(to_float(half), axis);
+        node.axis[axis][k] = component(b.axis, axis);
     }
-    a.low = lower(a.low, b.low);
-    a.high = upper(a.high, b.high);
-    unite_cones(a, b);
-    a.theta_e = std::max(a.theta_e, b.theta_e);
-    a.power += b.power;
-    a.two_sided |= b.two_sided;
-}
-
-// Surface area orientation heuristic: power times the box's area times the integral of the cone's cosine bound.
-double cost(const LightBounds& b) {
-    if (b.power <= 0) return 0;
-    const Vec3d size = b.high - b.low;
-    const double area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    const double o = b.theta_o, w = std::min(o + b.theta_e, std::numbers::pi), cos_o = b.cos_o, sin_o = o == 0 ? 0 : std::sin(o);
-    const double cone =
-        2 * std::numbers::pi * (1 - cos_o) + std::numbers::pi / 2 * (2 * w * sin_o - std::cos(o - 2 * w) - 2 * o * sin_o + cos_o);
-    return b.power * cone * (area + 1e-6 * dot(size, size));
+    const bool everywhere = b.theta_o >= std::numbers::pi_v<float>;
+    node.radius[k] = float(length(half) * (1 + 1e-6));
+    node.sin_o[k] = everywhere ? 0 : std::sin(b.theta_o);
+    node.cos_o[k] = everywhere ? -1 : std::cos(b.theta_o);
+    node.cos_e[k] = std::cos(b.theta_e);
+    node.power[k] = float(b.power);
+    node.sides[k] = b.two_sided ? 0x7fffffff : -1;
 }
 
 struct TreeBuilder {
-    std::vector<LightBounds>& lights;
-    LightTreeTable& table;
+    std::vector<Item> items;
+    LightTreeShape& shape;
 
-    LightTreeNode node_of(const LightBounds& b) const {
-        LightTreeNode node{};
-        node.center = to_float((b.low + b.high) * 0.5);
-        node.half = to_float((b.high - b.low) * (0.5 * (1 + 1e-6)));
-        // Rounded up, so that the sphere contains the box.
-        node.radius = float(0.5 * length(b.high - b.low) * (1 + 1e-6));
-        node.axis = to_float(b.axis);
-        node.sin_o = b.theta_o >= std::numbers::pi ? 0 : float(std::sin(b.theta_o));
-        node.cos_o = b.theta_o >= std::numbers::pi ? -1 : float(std::cos(b.theta_o));
-        node.cos_e = float(std::cos(b.theta_e));
-        node.two_sided = b.two_sided;
-        node.children = -1;
-        return node;
-    }
-
-    // Index at which to split lights [begin, end): the median along the longest side, or the bucket boundary of least cost.
-    size_t split(size_t begin, size_t end, int splits) const {
-        const std::span<LightBounds> part(lights.data() + begin, end - begin);
-        Vec3d low = part[0].low + part[0].high, high = low; // of centres, times 2
-        for (const LightBounds& b : part) {
-            low = lower(low, b.low + b.high);
-            high = upper(high, b.low + b.high);
+    // Index at which to split items [begin, end): the bucket boundary of least cost, or the median along the longest side.
+    size_t split(size_t begin, size_t end, bool by_cost) {
+        const std::span<Item> part(items.data() + begin, end - begin);
+        const auto position = [](const Item& item) { return item.bounds.low + item.bounds.high; }; // of the centre, times 2
+        Vec3 low = position(part[0]), high = low;
+        for (const Item& item : part) {
+            low = lower(low, position(item));
+            high = upper(high, position(item));
         }
-        const Vec3d size = high - low;
+        const Vec3 size = high - low;
         const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto position = [&](const LightBounds& b, int axis) { return component(b.low + b.high, axis); };
-        const size_t middle = begin + part.size() / 2;
-        // Use the median if the remaining trail bits require it.
-        const bool must_halve = max_splits - splits <= int(std::bit_width(part.size())) + splits_per_level;
-        if (!must_halve && component(size, longest) > 0)
+        if (by_cost && component(size, longest) > 0 && part.size() > 2)
             if (const size_t found = split_by_cost(part, begin, low, size, longest)) return found;
         std::ranges::nth_element(part, part.begin() + std::ptrdiff_t(part.size() / 2), {},
-                                 [&](const LightBounds& b) { return position(b, longest); });
-        return middle;
+                                 [&](const Item& item) { return component(position(item), longest); });
+        return begin + part.size() / 2;
     }
 
     static constexpr int buckets = 12;
-    static int bucket_of(const LightBounds& b, int axis, const Vec3d& low, const Vec3d& size) {
-        const double along = (component(b.low + b.high, axis) - component(low, axis)) / component(size, axis);
+    static int bucket_of(const Item& item, int axis, const Vec3& low, const Vec3& size) {
+        const float along = (component(item.bounds.low + item.bounds.high, axis) - component(low, axis)) / component(size, axis);
         return std::clamp(int(along * buckets), 0, buckets - 1);
     }
 
     // 0: no split. Large ranges are split along their longest side, which is nearly always best.
-    size_t split_by_cost(std::span<LightBounds> part, size_t begin, const Vec3d& low, const Vec3d& size, int longest) const {
+    size_t split_by_cost(std::span<Item> part, size_t begin, const Vec3& low, const Vec3& size, int longest) const {
         double best = 0;
         int best_axis = -1, best_bucket = 0;
+        const Vec3 reference = part[0].bounds.axis;
         for (int axis = 0; axis < 3; ++axis) {
             if (!(component(size, axis) > 0) || (part.size() > 1024 && axis != longest)) continue;
-            std::array<LightBounds, buckets> sums{};
-            for (const LightBounds& b : part) unite(sums[size_t(bucket_of(b, axis, low, size))], b);
-            std::array<LightBounds, buckets> from_right = sums;
-            for (size_t k = buckets - 1; k-- > 0;) unite(from_right[k], from_right[k + 1]);
-            LightBounds from_left{};
-            const double stretch = component(size, longest) / component(size, axis);
+            std::array<Sum, buckets> sums{};
+            for (const Item& item : part) sums[size_t(bucket_of(item, axis, low, size))].add(item.bounds, reference);
+            std::array<Sum, buckets> from_right = sums;
+            for (size_t k = buckets - 1; k-- > 0;) from_right[k].add(from_right[k + 1]);
+            Sum from_left{};
+            const double stretch = double(component(size, longest) / component(size, axis));
             for (size_t k = 0; k + 1 < buckets; ++k) {
                 if (sums[k].power <= 0) continue; // the split after the last bucket again
-                unite(from_left, sums[k]);
+                from_left.add(sums[k]);
                 if (from_right[k + 1].power <= 0) break;
-                const double total = stretch * (cost(from_left) + cost(from_right[k + 1]));
+                const double total = stretch * (from_left.cost() + from_right[k + 1].cost());
                 if (best_axis >= 0 && total >= best) continue;
                 best = total;
                 best_axis = axis;
@@ -142,72 +171,184 @@ struct TreeBuilder {
             }
         }
         if (best_axis < 0) return 0;
-        const auto second =
-            std::ranges::partition(part, [&](const LightBounds& b) { return bucket_of(b, best_axis, low, size) <= best_bucket; });
+        const auto second = std::ranges::partition(part, [&](const Item& i) { return bucket_of(i, best_axis, low, size) <= best_bucket; });
         return begin + size_t(second.begin() - part.begin());
     }
 
-    // Builds nodes[index] for lights [begin, end).
-    void build(size_t index, size_t begin, size_t end, uint32_t trail, int level) {
-        LightBounds all = lights[begin];
-        for (size_t i = begin + 1; i < end; ++i) unite(all, lights[i]);
-        table.nodes[index] = node_of(all);
-        if (end - begin == 1) {
-            table.nodes[index].light = all.light;
-            table.trails[size_t(all.light)] = trail;
-            table.depths[size_t(all.light)] = level;
+    // The ranges of the children of a node for items [begin, end), as their borders. The largest range is split until there are enough;
+    // but ranges that fit into one node are not split further, because half empty nodes waste memory.
+    std::vector<size_t> split_into_children(size_t begin, size_t end, int level) {
+        std::vector<size_t> borders{begin, end};
+        const size_t small = end - begin <= size_t(max_tree_children) ? 1 : size_t(max_tree_children);
+        // Use medians if the remaining levels require it.
+        const bool by_cost = (uint64_t(end - begin) << 2) <= uint64_t(1) << (tree_branch_bits * (max_levels - level));
+        while (borders.size() <= size_t(max_tree_children)) {
+            size_t largest = 0;
+            for (size_t k = 1; k + 1 < borders.size(); ++k)
+                if (borders[k + 1] - borders[k] > borders[largest + 1] - borders[largest]) largest = k;
+            const size_t low = borders[largest], high = borders[largest + 1];
+            if (high - low <= small) break;
+            borders.insert(borders.begin() + std::ptrdiff_t(largest) + 1, split(low, high, by_cost));
+        }
+        return borders;
+    }
+
+    // Appends the subtree of items [begin, end). `workers`: builds large ones in parallel; null: does not.
+    void build(std::vector<LightTreeNode>& nodes, size_t begin, size_t end, uint32_t trail, int level, const Workers* workers) {
+        const std::vector<size_t> borders = split_into_children(begin, end, level);
+        const size_t count = borders.size() - 1, self = nodes.size();
+        nodes.emplace_back();
+        nodes[self].first_leaf = uint32_t(begin);
+        const auto trail_of = [&](size_t k) { return trail | uint32_t(k) << tree_branch_bits * level; };
+        for (size_t k = 0; k < size_t(max_tree_children); ++k) {
+            nodes[self].leaf_end[k] = uint32_t(borders[std::min(k + 1, count)]);
+            if (k >= count) continue;
+            set_child(nodes[self], int(k), bounds_of(std::span(items).subspan(borders[k], borders[k + 1] - borders[k])));
+            if (borders[k + 1] - borders[k] > 1) continue;
+            nodes[self].child[k] = ~int32_t(borders[k]);
+            shape.items[borders[k]] = items[borders[k]].index;
+            shape.trails[size_t(items[borders[k]].index)] = trail_of(k);
+        }
+        if (!workers || end - begin < parallel_items) {
+            for (size_t k = 0; k < count; ++k) {
+                if (borders[k + 1] - borders[k] == 1) continue;
+                nodes[self].child[k] = int32_t(nodes.size() - self);
+                build(nodes, borders[k], borders[k + 1], trail_of(k), level + 1, nullptr);
+            }
             return;
         }
-        std::vector<size_t> borders{begin, end};
-        for (int k = 0; k < splits_per_level; ++k) {
-            std::vector<size_t> finer{begin};
-            for (size_t i = 0; i + 1 < borders.size(); ++i) {
-                if (borders[i + 1] - borders[i] > 1) finer.push_back(split(borders[i], borders[i + 1], splits_per_level * level + k));
-                finer.push_back(borders[i + 1]);
-            }
-            borders = std::move(finer);
+        std::array<std::vector<LightTreeNode>, size_t(max_tree_children)> below;
+        workers->for_each(
+            int64_t(count), [] { return true; },
+            [&](int64_t i, unsigned) {
+                const auto k = size_t(i);
+                if (borders[k + 1] - borders[k] > 1) build(below[k], borders[k], borders[k + 1], trail_of(k), level + 1, nullptr);
+            });
+        for (size_t k = 0; k < count; ++k) {
+            if (below[k].empty()) continue;
+            nodes[self].child[k] = int32_t(nodes.size() - self);
+            nodes.insert(nodes.end(), below[k].begin(), below[k].end());
         }
-        const size_t children = table.nodes.size(), count = borders.size() - 1;
-        table.nodes[index].children = int32_t(children);
-        table.nodes[index].child_count = int32_t(count);
-        table.nodes.resize(children + count);
-        for (size_t k = 0; k < count; ++k)
-            build(children + k, borders[k], borders[k + 1], trail | uint32_t(k) << splits_per_level * level, level + 1);
     }
 };
 
-} // namespace
-
-LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_count) {
-    LightTreeTable table;
-    std::erase_if(lights, [](const LightBounds& b) {
-        const Vec3d sum = b.low + b.high + b.axis;
-        return !(b.power > 0) || !std::isfinite(sum.x + sum.y + sum.z);
-    });
-    for (LightBounds& b : lights) b.cos_o = std::cos(b.theta_o);
-    table.trails.assign(size_t(light_count), 0);
-    table.depths.assign(size_t(light_count), -1);
-    if (lights.empty()) return table;
-    table.nodes.reserve(2 * lights.size());
-    table.nodes.resize(1);
-    std::vector<double> powers(size_t(light_count), 0.0);
-    for (const LightBounds& b : lights) powers[size_t(b.light)] = b.power;
-    TreeBuilder{lights, table}.build(0, 0, lights.size(), 0, 0);
-    set_light_tree_powers(table, powers);
-    return table;
+// Of the items, one sample in 64 is distributed uniformly (light_table.h).
+std::vector<double> with_uniform_share(std::span<const LightBounds> triangles, const LightTreeShape& shape) {
+    double total = 0;
+    for (const int32_t i : shape.items) total += triangles[size_t(i)].power;
+    std::vector<double> powers;
+    for (const int32_t i : shape.items)
+        powers.push_back((1 - uniform_share) * triangles[size_t(i)].power / total + uniform_share / double(shape.items.size()));
+    return powers;
 }
 
-void set_light_tree_powers(LightTreeTable& table, std::span<const double> powers) {
-    std::vector<double> below(table.nodes.size(), 0.0);
-    // Children have larger indices than their parents.
-    for (size_t i = table.nodes.size(); i-- > 0;) {
-        LightTreeNode& node = table.nodes[i];
-        if (node.children < 0)
-            below[i] = powers[size_t(node.light)];
-        else
-            for (int32_t k = 0; k < node.child_count; ++k) below[i] += below[size_t(node.children + k)];
-        node.power = float(below[i]);
+// The middle of a cell of the octahedral map (direction_cell).
+Vec3d cell_direction(int cell) {
+    const auto side = [](int i) { return (i + 0.5) * 2 / direction_cells - 1; };
+    const double x = side(cell % direction_cells), y = side(cell / direction_cells), z = 1 - std::abs(x) - std::abs(y);
+    if (z >= 0) return normalize(Vec3d{x, y, z});
+    return normalize(Vec3d{std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), z});
+}
+
+// Mean cosine of a triangle for receivers around a direction at that cosine: max(0, cosine), averaged over 0.3 to either side. Receivers
+// in the same cell, at the least distance at which a mesh is afar, see cosines that differ by less than 0.85: of these none is 0.
+float seen_share(float cosine) {
+    constexpr float blur = 0.3f, largest_difference = 0.85f, floor = 0.02f;
+    if (cosine <= -largest_difference) return 0;
+    const float above = cosine + blur;
+    return floor + (cosine >= blur ? cosine : above > 0 ? above * above / (4 * blur) : 0);
+}
+
+std::vector<Item> usable_items(std::span<const LightBounds> bounds) {
+    std::vector<Item> items;
+    items.reserve(bounds.size());
+    for (size_t i = 0; i < bounds.size(); ++i) {
+        const Vec3 sum = bounds[i].low + bounds[i].high + bounds[i].axis;
+        if (bounds[i].power > 0 && std::isfinite(sum.x + sum.y + sum.z)) items.push_back({bounds[i], int32_t(i)});
     }
+    return items;
+}
+
+} // namespace
+
+LightTreeShape build_light_tree(std::span<const LightBounds> bounds, const Workers& workers) {
+    LightTreeShape shape;
+    shape.trails.assign(bounds.size(), no_trail);
+    TreeBuilder builder{usable_items(bounds), shape};
+    if (builder.items.empty()) return shape;
+    shape.items.resize(builder.items.size());
+    // In the arena even if serial: its threads flush denormals.
+    workers.run([&] { builder.build(shape.nodes, 0, builder.items.size(), 0, 0, &workers); });
+    return shape;
+}
+
+void set_light_tree_powers(std::vector<LightTreeNode>& nodes, std::span<const double> powers) {
+    std::vector<double> below(nodes.size(), 0.0);
+    // Children have larger indices than their parents.
+    for (size_t i = nodes.size(); i-- > 0;)
+        for (int k = 0; k < max_tree_children; ++k) {
+            const int32_t child = nodes[i].child[k];
+            if (child == 0) continue;
+            const double power = child < 0 ? powers[size_t(~child)] : below[i + size_t(child)];
+            below[i] += power;
+            nodes[i].power[k] = float(power);
+        }
+}
+
+MeshTree::MeshTree(std::span<const LightBounds> triangles, const Workers& workers) : shape_(build_light_tree(triangles, workers)) {
+    if (empty()) return;
+    const std::vector<double> powers = with_uniform_share(triangles, shape_);
+    set_light_tree_powers(shape_.nodes, powers);
+    thresholds_ = make_thresholds(powers);
+    leaves_.assign(triangles.size(), 0);
+    for (size_t i = 0; i < shape_.items.size(); ++i) leaves_[size_t(shape_.items[i])] = int32_t(i);
+    bounds_ = bounds_of(usable_items(triangles));
+    const bool everywhere = bounds_.theta_e >= 0.5f * std::numbers::pi_v<float>;
+    if (everywhere && int64_t(shape_.items.size()) >= min_triangles_for_patches) tabulate_directions(triangles, powers, workers);
+    tables_ = {shape_.nodes.data(),
+               thresholds_.data(),
+               shape_.items.data(),
+               shape_.trails.data(),
+               leaves_.data(),
+               uint32_t(shape_.items.size()),
+               patch_thresholds_.data(),
+               patch_begins_.empty() ? nullptr : patch_begins_.data(),
+               to_float((to_double(bounds_.low) + to_double(bounds_.high)) * 0.5)};
+}
+
+// For each direction what the patches give to receivers far away in the cell around it: the power of their triangles times the cosine.
+void MeshTree::tabulate_directions(std::span<const LightBounds> triangles, std::span<const double> powers, const Workers& workers) {
+    const size_t leaf_count = shape_.items.size();
+    patch_begins_.assign(mesh_patches + 1, uint32_t(leaf_count));
+    for (size_t leaf = leaf_count; leaf-- > 0;) patch_begins_[thresholds_[leaf] >> (32 - patch_bits)] = uint32_t(leaf);
+    for (size_t k = mesh_patches; k-- > 0;) patch_begins_[k] = std::min(patch_begins_[k], patch_begins_[k + 1]);
+    patch_thresholds_.resize(size_t(direction_cells) * direction_cells * mesh_patches);
+    workers.for_each(
+        int64_t(direction_cells) * direction_cells, [] { return true; },
+        [&](int64_t cell, unsigned) {
+            const Vec3 towards = to_float(cell_direction(int(cell)));
+            std::vector<double> given(mesh_patches, 0.0);
+            for (size_t k = 0; k < size_t(mesh_patches); ++k)
+                for (uint32_t leaf = patch_begins_[k]; leaf < patch_begins_[k + 1]; ++leaf) {
+                    const LightBounds& triangle = triangles[size_t(shape_.items[leaf])];
+                    const float cosine = dot(triangle.axis, towards);
+                    given[k] += powers[leaf] * double(seen_share(triangle.two_sided ? std::abs(cosine) : cosine));
+                }
+            const std::vector<uint32_t> thresholds = make_thresholds(given);
+            std::ranges::copy(thresholds, patch_thresholds_.begin() + cell * mesh_patches);
+        });
+}
+
+size_t MeshTree::memory_bytes() const {
+    return sizeof *this + shape_.nodes.capacity() * sizeof(LightTreeNode) +
+           4 * (shape_.items.capacity() + shape_.trails.capacity() + thresholds_.capacity() + leaves_.capacity() +
+                patch_thresholds_.capacity() + patch_begins_.capacity());
+}
+
+size_t LightTreeTable::memory_bytes() const {
+    size_t bytes = nodes.capacity() * sizeof(LightTreeNode) + entries.capacity() * sizeof(LightTreeEntry);
+    for (const auto& mesh : meshes) bytes += mesh->memory_bytes();
+    return bytes;
 }
 
 } // namespace blush

@@ -1,47 +1,85 @@
 // Builds the light tree for sampling many lights (shading/light_tree.h).
 #pragma once
 
+#include "core/parallel.h"
 #include "shading/light_tree.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace blush {
 
-// Position and emission bounds of a light.
+// Position and emission bounds of a light, or of several.
 struct LightBounds {
-    Vec3d low{0, 0, 0}, high{0, 0, 0};
-    Vec3d axis{0, 0, -1}; // unit
-    double theta_o = 0;   // half angle of the cone of its normals; pi: all directions
-    double cos_o = 1;     // its cosine, set by build_light_tree
-    double theta_e = 0;   // emission angle beyond a normal
-    double power = 0;
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
+    Vec3 axis{0, 0, -1}; // unit
+    float theta_o = 0;   // half angle of the cone of its normals; pi: all directions
+    float theta_e = 0;   // emission angle beyond a normal
     bool two_sided = false;
-    int32_t light = 0;
+    double power = 0;
 };
 
+// A tree over lights, which are its items.
+struct LightTreeShape {
+    std::vector<LightTreeNode> nodes; // depth first; empty: no item
+    std::vector<int32_t> items;       // by leaf
+    std::vector<uint32_t> trails;     // by item; no_trail: not in the tree
+};
+
+// Top-down build; splits by the surface area orientation heuristic (Conty Estevez and Kulla 2018). Items without power or with
+// non-finite bounds are omitted. The result does not depend on `workers`.
+LightTreeShape build_light_tree(std::span<const LightBounds> items, const Workers& workers);
+
+// Sets the selection powers: powers[i] (>= 0) for child ~i, a leaf. Bounds and splits stay as built.
+void set_light_tree_powers(std::vector<LightTreeNode>& nodes, std::span<const double> powers);
+
+// The tree of a mesh with many emissive triangles, which are its items.
+class MeshTree {
+public:
+    // `triangles` with powers relative to each other. Not empty: some triangle has power.
+    MeshTree(std::span<const LightBounds> triangles, const Workers& workers);
+    MeshTree(const MeshTree&) = delete;
+    MeshTree& operator=(const MeshTree&) = delete;
+
+    bool empty() const { return shape_.nodes.empty(); }
+    // For kernels; valid as long as this object.
+    const MeshLightTree& tables() const { return tables_; }
+    // Of all triangles, with their total power.
+    const LightBounds& bounds() const { return bounds_; }
+    size_t memory_bytes() const;
+
+private:
+    void tabulate_directions(std::span<const LightBounds> triangles, std::span<const double> powers, const Workers& workers);
+
+    LightTreeShape shape_;
+    std::vector<uint32_t> thresholds_;
+    std::vector<int32_t> leaves_;
+    std::vector<uint32_t> patch_thresholds_, patch_begins_;
+    LightBounds bounds_;
+    MeshLightTree tables_{};
+};
+
+// The tree of the scene.
 struct LightTreeTable {
-    std::vector<LightTreeNode> nodes;
-    std::vector<uint32_t> trails;
-    std::vector<int32_t> depths;
+    std::vector<LightTreeNode> nodes; // their leaves are numbers of entries
+    std::vector<LightTreeEntry> entries;
+    std::vector<std::shared_ptr<const MeshTree>> meshes; // of the entries
 
     // Valid until the table changes; null if empty.
-    LightTree tables() const { return {nodes.empty() ? nullptr : nodes.data(), trails.data(), depths.data()}; }
-    size_t memory_bytes() const {
-        return nodes.capacity() * sizeof(LightTreeNode) + trails.capacity() * sizeof(uint32_t) + depths.capacity() * sizeof(int32_t);
-    }
+    LightTree tables() const { return {nodes.empty() ? nullptr : nodes.data(), entries.data()}; }
+    size_t memory_bytes() const;
 };
 
+// The share of samples that are distributed uniformly over all lights, and within a mesh over its triangles (defensive mixture,
+// Hesterberg 1995): a light that is weak in the whole scene may be the only one in a room. Other lights lose at most this share.
+constexpr double uniform_share = 1.0 / 64;
 // With fewer lights, sampling by power alone is faster than traversal.
-// With more, building the tree would take longer than an edit may.
-constexpr int64_t min_lights_for_a_tree = 32, max_lights_for_a_tree = 1 << 15;
-
-// Top-down build; splits by the surface area orientation heuristic (Conty Estevez and Kulla 2018). Lights without power or with a
-// non-finite position are omitted. `light_count`: number of all lights, including those outside the tree.
-LightTreeTable build_light_tree(std::vector<LightBounds> lights, int32_t light_count);
-
-// Updates the selection powers, powers[i] (>= 0) for light i, of the tree's lights. Bounds and splits stay as built.
-void set_light_tree_powers(LightTreeTable& table, std::span<const double> powers);
+constexpr int64_t min_lights_for_a_tree = 32;
+// Meshes with fewer emissive triangles have no tree of their own: their triangles are leaves of the scene's tree.
+constexpr int64_t min_triangles_for_a_tree = 32;
+// Smaller ones have no table for receivers far away: it takes 64 KiB.
+constexpr int64_t min_triangles_for_patches = 1024;
 
 } // namespace blush

@@ -28,15 +28,21 @@ double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec
     return std::max(sum / 16, 0.01 * luminance_of(factor));
 }
 
-LightBounds triangle_bounds(const Vec3 (&p)[3], const LightRecord& light, const Light* panel) {
+float emission_angle(const Light* panel) {
+    constexpr float all = 0.5f * std::numbers::pi_v<float>;
+    return panel ? std::min(0.5f * panel->spread_radians + float(angle_margin), all) : all;
+}
+
+LightBounds triangle_bounds(const LightRecord& light, float theta_e, double power) {
     LightBounds b;
-    const Vec3d v[3] = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
-    b.low = {std::min({v[0].x, v[1].x, v[2].x}), std::min({v[0].y, v[1].y, v[2].y}), std::min({v[0].z, v[1].z, v[2].z})};
-    b.high = {std::max({v[0].x, v[1].x, v[2].x}), std::max({v[0].y, v[1].y, v[2].y}), std::max({v[0].z, v[1].z, v[2].z})};
+    const Vec3 p[3] = {light.position, light.position + light.edge1, light.position + light.edge2};
+    b.low = {std::min({p[0].x, p[1].x, p[2].x}), std::min({p[0].y, p[1].y, p[2].y}), std::min({p[0].z, p[1].z, p[2].z})};
+    b.high = {std::max({p[0].x, p[1].x, p[2].x}), std::max({p[0].y, p[1].y, p[2].y}), std::max({p[0].z, p[1].z, p[2].z})};
     const Vec3d normal = cross(to_double(light.edge1), to_double(light.edge2));
-    b.axis = dot(normal, normal) > 0 ? normalize(normal) : Vec3d{0, 0, 1};
-    b.theta_e = panel ? std::min(0.5 * double(panel->spread_radians) + angle_margin, 0.5 * std::numbers::pi) : 0.5 * std::numbers::pi;
+    b.axis = dot(normal, normal) > 0 ? to_float(normalize(normal)) : Vec3{0, 0, 1};
+    b.theta_e = theta_e;
     b.two_sided = light.flags & light_two_sided;
+    b.power = power;
     return b;
 }
 
@@ -70,18 +76,17 @@ std::vector<bool> is_sampled(const GeometryPool& geometry, const std::vector<siz
 // What the records of one part have in common.
 struct Emitter {
     size_t part = 0;
-    LightRecord record{};         // but for the triangle
-    Vec3 factor{0, 0, 0};         // emission before textures
-    const Light* panel = nullptr; // null: an ordinary mesh
-    bool varying = false;         // emission or opacity is textured, or opacity is in vertex colours
+    LightRecord record{}; // but for the triangle
+    Vec3 factor{0, 0, 0}; // emission before textures
+    bool varying = false; // emission or opacity is textured, or opacity is in vertex colours
     bool mirrored = false;
     bool sampled = true;
 };
 
-Emitter emitter_of(const SceneTables& tables, const GeometryPool& geometry, size_t part, const Light* panel, int32_t profile) {
+Emitter emitter_of(const SceneTables& tables, const GeometryPool& geometry, size_t part, int32_t profile) {
     const PartRecord& record = geometry.parts()[part];
     const MaterialRecord& material = tables.materials.materials[record.material];
-    Emitter e{part, {}, material.emission, panel};
+    Emitter e{part, {}, material.emission};
     const bool two_sided = material.flags & material_double_sided, translucent = material.alpha != alpha_opaque;
     e.varying = material.emissive_texture >= 0 || (translucent && (material.base_color_texture >= 0 || (record.flags & part_colors) != 0));
     // Constant alpha dims the whole light.
@@ -117,7 +122,60 @@ void add_triangle(MeshLights& lights, SceneTables& tables, const GeometryPool& g
     const double power = std::numbers::pi * area * nits * (light.flags & light_two_sided ? 2 : 1);
     lights.nodes.push_back(Id<Node>{uint32_t(geometry.parts()[e.part].object)});
     lights.powers.push_back(e.sampled && light.inverse_area > 0 ? usable_power(power) : 0);
-    lights.bounds.push_back(triangle_bounds(p, light, e.panel));
+}
+
+bool same_triangle(const LightRecord& a, const LightRecord& b) {
+    return a.position == b.position && a.edge1 == b.edge1 && a.edge2 == b.edge2 && a.flags == b.flags;
+}
+
+// The tree of an entry's triangles. It does not depend on a constant emission, so that an edit of it builds nothing. `same`: the
+// entry of this part in `before`, or null.
+std::shared_ptr<const MeshTree> mesh_tree(const MeshLights& lights, const MeshLightEntry& entry, const MeshLights& before,
+                                          const MeshLightEntry* same, const Workers& workers) {
+    const auto first = size_t(entry.light), count = size_t(entry.count);
+    const bool varying = lights.records[first].flags & light_varying;
+    if (same && same->count == entry.count && same->theta_e == entry.theta_e) {
+        const auto first_before = size_t(same->light);
+        bool equal = true;
+        for (size_t i = 0; equal && i < count; ++i)
+            equal = same_triangle(lights.records[first + i], before.records[first_before + i]) &&
+                    (!varying || lights.powers[first + i] == before.powers[first_before + i]);
+        if (equal) return same->tree;
+    }
+    std::vector<LightBounds> triangles;
+    triangles.reserve(count);
+    for (size_t i = first; i < first + count; ++i) {
+        const float inverse_area = lights.records[i].inverse_area;
+        const double area = inverse_area > 0 ? 1 / double(inverse_area) : 0;
+        triangles.push_back(triangle_bounds(lights.records[i], entry.theta_e, varying ? lights.powers[i] : area));
+    }
+    return std::make_shared<const MeshTree>(triangles, workers);
+}
+
+using EntriesByPart = std::map<std::pair<Id<Node>, int32_t>, const MeshLightEntry*>;
+
+// Adds the entries of the light tree for the newest records, from `first` on. `part`: what they have in common.
+void add_entries(MeshLights& lights, size_t first, const MeshLightEntry& part, const MeshLights& before, const EntriesByPart& parts_before,
+                 const Workers& workers) {
+    const size_t count = lights.records.size() - first;
+    if (count < size_t(min_triangles_for_a_tree)) {
+        for (size_t i = first; i < first + count; ++i) {
+            lights.records[i].slot = ~int32_t(lights.entries.size());
+            MeshLightEntry triangle;
+            triangle.bounds = triangle_bounds(lights.records[i], part.theta_e, 0);
+            triangle.light = int32_t(i);
+            lights.entries.push_back(std::move(triangle));
+        }
+        return;
+    }
+    MeshLightEntry entry = part;
+    entry.light = int32_t(first);
+    entry.count = int32_t(count);
+    const auto same = parts_before.find({entry.node, entry.part_of_node});
+    entry.tree = mesh_tree(lights, entry, before, same == parts_before.end() ? nullptr : same->second, workers);
+    entry.bounds = entry.tree->bounds();
+    for (size_t i = first; i < first + count; ++i) lights.records[i].slot = ~int32_t(lights.entries.size());
+    lights.entries.push_back(std::move(entry));
 }
 
 } // namespace
@@ -127,8 +185,12 @@ double usable_power(double power) { return std::isfinite(power) && power > 0 ? p
 double luminance_of(const Vec3& c) { return double(luminance(c)); }
 
 MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, const SceneTables& scene_tables,
-                             const std::vector<size_t>& parts, NeeLights aim) {
+                             const std::vector<size_t>& parts, NeeLights aim, const MeshLights& before, const Workers& workers) {
     MeshLights lights;
+    EntriesByPart parts_before;
+    for (const MeshLightEntry& entry : before.entries)
+        if (entry.tree) parts_before.emplace(std::pair(entry.node, entry.part_of_node), &entry);
+    MeshLightEntry common; // to the triangles of a part
     WorldTransforms placements(scene);
     SceneTables tables = scene_tables;
     const std::vector<bool> aimed = is_sampled(geometry, parts);
@@ -146,10 +208,15 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
             lights.unsampled_triangles += triangles;
             continue;
         }
-        lights.first_lights.push_back({part, int32_t(lights.records.size())});
-        Emitter emitter = emitter_of(tables, geometry, part, panel, profile);
+        common.part_of_node = common.node == body ? common.part_of_node + 1 : 0;
+        common.node = body;
+        common.theta_e = emission_angle(panel);
+        const size_t first = lights.records.size();
+        lights.first_lights.push_back({part, int32_t(first)});
+        Emitter emitter = emitter_of(tables, geometry, part, profile);
         emitter.sampled = aim == NeeLights::all_lights;
         for (int64_t t = 0; t < triangles; ++t) add_triangle(lights, tables, geometry, emitter, t);
+        if (emitter.sampled) add_entries(lights, first, common, before, parts_before, workers);
     }
     return lights;
 }

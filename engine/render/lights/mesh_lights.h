@@ -9,6 +9,7 @@
 #include "shading/light.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace blush {
@@ -16,13 +17,23 @@ namespace blush {
 // zero_size_lights: NEE samples only lights of zero size, which rays cannot hit.
 enum class NeeLights { all_lights, zero_size_lights };
 
+// An entry of the light tree: a triangle, or all triangles of a part.
+struct MeshLightEntry {
+    LightBounds bounds;
+    std::shared_ptr<const MeshTree> tree; // null: a triangle
+    int32_t light = 0, count = 1;         // its records
+    Id<Node> node;                        // of a part: its node, its number among the parts of this node, and its spread
+    int32_t part_of_node = 0;
+    float theta_e = 0;
+};
+
 // The first records of a light table (light_table.h). They depend on meshes, materials and area lights only, and are made anew only
 // when one of these changes.
 struct MeshLights {
     std::vector<LightRecord> records;
-    std::vector<Id<Node>> nodes; // by record, like the next two
+    std::vector<Id<Node>> nodes; // by record, like the next
     std::vector<double> powers;
-    std::vector<LightBounds> bounds;
+    std::vector<MeshLightEntry> entries;  // of the light tree; the slots of the records lead to them
     std::vector<FirstLight> first_lights; // of the parts that have records
     LightProfiles profiles;
     int64_t emissive_triangles = 0;
@@ -32,9 +43,10 @@ struct MeshLights {
 
 // True for materials of emissive triangles that light the scene.
 bool is_emissive(const MaterialRecord& material);
-// `parts`: those with emissive materials, ascending. `tables` of the geometry and the materials; their lights are not read.
+// `parts`: those with emissive materials, ascending. `tables` of the geometry and the materials; their lights are not read. `before`:
+// mesh lights of an earlier scene, whose trees are used again where the triangles are the same.
 MeshLights build_mesh_lights(const Scene& expanded, const GeometryPool& geometry, const SceneTables& tables,
-                             const std::vector<size_t>& parts, NeeLights aim);
+                             const std::vector<size_t>& parts, NeeLights aim, const MeshLights& before, const Workers& workers);
 
 // The power if it is positive and finite, else 0.
 double usable_power(double power);

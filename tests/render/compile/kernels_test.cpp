@@ -210,6 +210,24 @@ TEST(Kernels, GiveTheSameBitsWithManyLights) {
     expect_same_bits_from_all_kernels(compiled);
 }
 
+// Emissive meshes with and without a table by direction, near and far away.
+TEST(Kernels, GiveTheSameBitsWithEmissiveMeshes) {
+    Scene scene = everything();
+    auto sparks = std::make_shared<Geometry>();
+    for (uint32_t i = 0; i < 3 * 1500; ++i) {
+        const uint32_t bits = pcg_hash(i), turn = pcg_hash(i / 3 + 7000);
+        sparks->positions.push_back({0.7f * float(turn & 255u) / 255 + 0.02f * float(bits & 15u),
+                                     0.7f * float(turn >> 8 & 255u) / 255 + 0.02f * float(bits >> 4 & 15u),
+                                     0.7f * float(turn >> 16 & 255u) / 255 + 0.02f * float(bits >> 8 & 15u)});
+        sparks->indices.push_back(i);
+    }
+    place(scene, sparks, emitter(3), at({-1, 1, -1}, 0.5f));
+    place(scene, sphere(false), emitter(2), at({3, 2, -2}, 0.2f));
+    const Compiled compiled(scene);
+    EXPECT_TRUE(compiled.scene.features().has(Feature::light_tree));
+    expect_same_bits_from_all_kernels(compiled);
+}
+
 TEST(Kernels, TheSmallestSufficientOneIsChosen) {
     for (const std::string_view isa : runnable_isas()) {
         for (const Kernel& kernel : kernels_of(isa)) {
