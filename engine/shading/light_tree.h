@@ -27,7 +27,7 @@ constexpr uint32_t no_trail = ~0u; // of a light that is not in the tree
 // Bounds of the lights below each child: position, and the cone of their emission. Power 0: there is no such child.
 struct alignas(64) LightTreeNode {
     float center[3][max_tree_children], half[3][max_tree_children]; // of the box of their positions
-    float radius[max_tree_children];                                // of the sphere around it
+    float radius[max_tree_children];                                // of a sphere around its centre that contains them, too
     float axis[3][max_tree_children];                               // of the cone of their normals
     float sin_o[max_tree_children], cos_o[max_tree_children];       // of its half angle
     float cos_e[max_tree_children];                                 // of the emission angle beyond the normals
@@ -132,20 +132,19 @@ template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, 
     const V cos_p = select(cos_x > cos_b, V(1.f), V(cos_x * cos_b + sin_x * sin_b));
     const Mask<V> shines = cos_p > b.cos_e;
 
-    // The part of the box above the receiver's horizon: its share, mean height and distance. Bounding it by a sphere would rate a
-    // ceiling of lights seen at a grazing angle as if it were overhead.
-    const V r2 = b.radius * b.radius, mean = -dot(to.normal, away), spread = dot(to.abs_normal, b.half);
-    V facing = select(to.all_sides, V(1.f), min(V(mean * over_d), V(1.f))), lit2 = d2, lit_r2 = r2;
+    // The part of the bounds above the receiver's horizon: its share, mean height and distance. Without the box, a ceiling of lights
+    // seen at a grazing angle would be rated as if it were overhead; without the sphere, a ball for a receiver on its surface.
+    const V mean = -dot(to.normal, away), spread = min(dot(to.abs_normal, b.half), b.radius);
+    V facing = select(to.all_sides, V(1.f), min(V(mean * over_d), V(1.f))), lit2 = d2;
     const V lowest = select(to.all_sides, V(1.f), V(mean - spread)), highest = select(to.all_sides, V(1.f), max(V(0.f), V(mean + spread)));
     const Mask<V> cut = lowest < V(0.f);
     if (any(cut)) {
         const V share = highest / max(V(2.f * spread), V(1e-30f)), height = 0.5f * highest;
         lit2 = select(cut, max(V(d2 - mean * mean + height * height), V(1e-30f)), lit2);
         facing = select(cut, V(share * min(V(height / sqrt(lit2)), V(1.f))), facing);
-        lit_r2 = select(cut, max(V(r2 - spread * spread + height * height), V(0.f)), lit_r2);
     }
     // Inside the bounds, the distance is clamped to a fraction of the child's size.
-    const V importance = b.power * max(cos_p, V(0.f)) * facing / max(lit2, V(0.05f * lit_r2));
+    const V importance = b.power * max(cos_p, V(0.f)) * facing / max(lit2, V(0.05f * (b.radius * b.radius)));
 
     // Angle to the farthest direction, w + o + b.
     const V cos_f = (cos_w * b.cos_o - sin_w * b.sin_o) * cos_b - (sin_w * b.cos_o + cos_w * b.sin_o) * sin_b;

@@ -63,6 +63,8 @@ LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, c
     const Vec3d c = to_double(center), r{radius, radius, radius};
     b.low = to_float(c - r);
     b.high = to_float(c + r);
+    b.corners = {center, center, center};
+    b.margin = radius;
     const Vec3d axis = world.z * -1.0;
     const bool is_spot = light.kind == Light::Kind::spot && dot(axis, axis) > 0;
     constexpr float right_angle = 0.5f * std::numbers::pi_v<float>;

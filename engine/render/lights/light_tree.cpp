@@ -27,6 +27,14 @@ struct Item {
     int32_t index = 0;
 };
 
+Vec3d center_of(const LightBounds& b) { return (to_double(b.low) + to_double(b.high)) * 0.5; }
+// Largest distance of its lights from `center`.
+double radius_around(const Vec3d& center, const LightBounds& b) {
+    double farthest = 0;
+    for (const Vec3& corner : b.corners) farthest = std::max(farthest, length(to_double(corner) - center));
+    return farthest + b.margin;
+}
+
 // Unlike LightBounds, sums need no trigonometry. The mean of the axes stands for their cone: that of a uniform cap of half angle o has
 // the length (1 + cos o) / 2.
 struct Sum {
@@ -79,6 +87,10 @@ LightBounds bounds_of(std::span<const Item> items) {
     }
     all.low = sum.low;
     all.high = sum.high;
+    const Vec3 center = to_float(center_of(all));
+    all.corners = {center, center, center};
+    all.margin = 0;
+    for (const Item& item : items) all.margin = std::max(all.margin, radius_around(to_double(center), item.bounds));
     all.power = sum.power;
     all.theta_e = sum.theta_e;
     all.theta_o = std::numbers::pi_v<float>;
@@ -100,17 +112,17 @@ LightBounds bounds_of(std::span<const Item> items) {
 }
 
 void set_child(LightTreeNode& node, int k, const LightBounds& b) {
-    const Vec3d low = to_double(b.low), high = to_double(b.high);
-    const Vec3 center = to_float((low + high) * 0.5);
-    // Rounded up, so that the box contains the lights and the sphere contains the box.
-    const Vec3d half = (high - low) * (0.5 * (1 + 1e-6)) + to_double(abs(center)) * 0x1p-24;
+    const Vec3 center = to_float(center_of(b));
+    // Rounded up, so that the box and the sphere contain the lights.
+    const Vec3d rounding = to_double(abs(center)) * 0x1p-24;
+    const Vec3d half = (to_double(b.high) - to_double(b.low)) * (0.5 * (1 + 1e-6)) + rounding;
     for (int axis = 0; axis < 3; ++axis) {
         node.center[axis][k] = component(center, axis);
         node.half[axis][k] = component(to_float(half), axis);
         node.axis[axis][k] = component(b.axis, axis);
     }
     const bool everywhere = b.theta_o >= std::numbers::pi_v<float>;
-    node.radius[k] = float(length(half) * (1 + 1e-6));
+    node.radius[k] = float(std::min(length(half), radius_around(to_double(center), b)) * (1 + 1e-6));
     node.sin_o[k] = everywhere ? 0 : std::sin(b.theta_o);
     node.cos_o[k] = everywhere ? -1 : std::cos(b.theta_o);
     node.cos_e[k] = std::cos(b.theta_e);
@@ -313,7 +325,7 @@ MeshTree::MeshTree(std::span<const LightBounds> triangles, const Workers& worker
                uint32_t(shape_.items.size()),
                patch_thresholds_.data(),
                patch_begins_.empty() ? nullptr : patch_begins_.data(),
-               to_float((to_double(bounds_.low) + to_double(bounds_.high)) * 0.5)};
+               to_float(center_of(bounds_))};
 }
 
 // For each direction what the patches give to receivers far away in the cell around it: the power of their triangles times the cosine.

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "shading/light_tree.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +15,9 @@ namespace blush {
 // Position and emission bounds of a light, or of several.
 struct LightBounds {
     Vec3 low{0, 0, 0}, high{0, 0, 0};
+    // They are within `margin` of these: of a triangle its corners, else three times the centre.
+    std::array<Vec3, 3> corners{};
+    double margin = 0;
     Vec3 axis{0, 0, -1}; // unit
     float theta_o = 0;   // half angle of the cone of its normals; pi: all directions
     float theta_e = 0;   // emission angle beyond a normal

@@ -35,7 +35,8 @@ float emission_angle(const Light* panel) {
 
 LightBounds triangle_bounds(const LightRecord& light, float theta_e, double power) {
     LightBounds b;
-    const Vec3 p[3] = {light.position, light.position + light.edge1, light.position + light.edge2};
+    b.corners = {light.position, light.position + light.edge1, light.position + light.edge2};
+    const auto& p = b.corners;
     b.low = {std::min({p[0].x, p[1].x, p[2].x}), std::min({p[0].y, p[1].y, p[2].y}), std::min({p[0].z, p[1].z, p[2].z})};
     b.high = {std::max({p[0].x, p[1].x, p[2].x}), std::max({p[0].y, p[1].y, p[2].y}), std::max({p[0].z, p[1].z, p[2].z})};
     const Vec3d normal = cross(to_double(light.edge1), to_double(light.edge2));

@@ -191,6 +191,27 @@ TEST(MeshLightTrees, ProbabilitiesAddUpToOneWhereEverythingIsLit) {
     }
 }
 
+// A ball sends no light to its own surface. Bounded by its box alone it would seem to: the box's corners are above the horizon.
+TEST(MeshLightTrees, LeaveTheSurfaceOfABallToOtherLights) {
+    Scene scene;
+    place(scene, sphere(false), emitter(1), at({0, 0, 0}, 1));
+    Random random;
+    Light light;
+    light.kind = Light::Kind::point;
+    light.intensity = 0.01f;
+    shine(scene, light, at({0, 4, 0}));
+    const Compiled compiled(scene);
+    const LightTables& t = compiled.lights();
+    ASSERT_NE(t.tree.nodes, nullptr);
+    const int64_t bulb = compiled.scene.info().emissive_triangles;
+    ASSERT_EQ(t.lights[bulb].kind, int32_t(LightKind::point));
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 normal = random.direction();
+        if (normal.y < 0.5f) continue; // the bulb is well above the horizon
+        EXPECT_GT(probability(t, {normal, normal}, bulb), 0.5f) << normal.x << ' ' << normal.y << ' ' << normal.z;
+    }
+}
+
 TEST(MeshLightTrees, HaveAMillionTriangles) {
     constexpr int count = 1'000'000;
     const Compiled compiled(glowing(count, 1), 2);
