@@ -1,9 +1,9 @@
 // Directional emission of a light: the product of up to three factors.
 //
 //   cone    of a spot, KHR_lights_punctual's falloff: clamp(cos theta * scale + offset)^2, theta from the axis
-//   spread  of a panel with a grid in front of it, which blocks more light at larger angles:
+//   spread  of an area light with a grid in front of it, which blocks more light at larger angles:
 //           max(0, tan h - tan theta) / (tan h - h), h half the spread. The integral of it times the cosine over the hemisphere is pi
-//           for any spread, so a panel keeps its luminous flux and gets brighter along its axis.
+//           for any spread, so an area light keeps its luminous flux and gets brighter along its axis.
 //   table   an IES profile (scene/ies_profile.h), relative to its peak
 #pragma once
 
@@ -86,7 +86,7 @@ template <class F> F profile_factor(const ProfileTables& tables, const Int<F>& p
                               gather_field(tables.records, &ProfileRecord::cone_offset, profile));
     F factor = in_cone * in_cone;
     const F spread = gather_field(tables.records, &ProfileRecord::spread_scale, profile);
-    // The grid of a panel acts on both sides.
+    // The grid of an area light acts on both sides.
     const F tangent = sqrt(x * x + y * y) / max(abs(ahead), F(1e-12f));
     const F left = max(gather_field(tables.records, &ProfileRecord::spread_tan, profile) - tangent, F(0.f)) * spread;
     factor = select(spread > F(0.f), factor * left, factor);

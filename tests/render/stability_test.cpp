@@ -136,7 +136,7 @@ constexpr DocumentedLimit documented_limits[] = {
     {"ball of glass within a block of the same glass", 0.5437},
     {"absorbing sheet 1e-7 as thick as wide", 1},
     {"coarse ball with shading normals, half lit", 0.105716},
-    {"two coincident lamps", 0.4390},
+    {"two coincident lights", 0.4390},
     {"dark room at the edge of a wide world", 0.02531213226128178},
     {"closed ball of radius 1e-10 m", 1024},
     {"closed ball of radius 1e12 m", 500},

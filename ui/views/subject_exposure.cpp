@@ -68,7 +68,7 @@ Cells subject_of(const Frame& f, const Scene& scene, std::span<const Id<Node>> s
         std::vector<uint32_t> ids;
         for (const Id<Node> root : selected)
             for (const Id<Node> id : subtree(scene, root))
-                if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // only objects: the emission of a lamp is not its subject
+                if (scene.nodes.find(id)->mesh) ids.push_back(id.value); // only objects: the emission of a light is not its subject
         std::ranges::sort(ids);
         Cells cells = cells_of(f, [&](size_t i) { return is_object(i) && std::ranges::binary_search(ids, f.object_id[i]); });
         if (cells.share >= min_subject_area) return cells;

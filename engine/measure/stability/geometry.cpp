@@ -145,7 +145,7 @@ Findings squashed_ball(const Vec3& scale) {
     return whole(render(scene, settings_for(16, 16, 64)), double(albedo));
 }
 
-Findings scaled_panel(const Vec3& scale) {
+Findings scaled_area_light(const Vec3& scale) {
     Scene scene;
     Light light;
     light.kind = Light::Kind::rectangle;
@@ -183,7 +183,7 @@ std::vector<StabilityCase> geometry_cases() {
     cases.push_back({"dark room of 2000 slivers", leaving_surfaces, [] { return dark_room(needle_room(1000), {0, 0, 0}); }});
     cases.push_back({"dark cube", leaving_surfaces, [] { return dark_room(cube(true), {0, 0, 0}); }});
     cases.push_back({"dark ball", leaving_surfaces, [] { return dark_room(sphere(true), {0, 0, 0}); }});
-    cases.push_back({"lamp with 300 triangles of no area", no_area, degenerate_lamp});
+    cases.push_back({"light with 300 triangles of no area", no_area, degenerate_lamp});
     cases.push_back({"floor with triangles of no area", no_area, degenerate_floor});
     for (const int copies : {2, 1000})
         cases.push_back({fmt::format("floor of {} coincident copies", copies), leaving_surfaces, [copies] { return duplicates(copies); }});
@@ -194,8 +194,8 @@ std::vector<StabilityCase> geometry_cases() {
         cases.push_back({fmt::format("ball scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested_solids,
                          [scale] { return squashed_ball(scale); }});
     for (const Vec3& scale : {Vec3{0.1f, 3, 1}, Vec3{-1, 1, 1}, Vec3{1, -2, 1}, Vec3{-1, -1, -1}})
-        cases.push_back({fmt::format("panel scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested_solids,
-                         [scale] { return scaled_panel(scale); }});
+        cases.push_back({fmt::format("area light scaled by ({:g}, {:g}, {:g})", scale.x, scale.y, scale.z), nested_solids,
+                         [scale] { return scaled_area_light(scale); }});
     for (const float shear : {0.f, 1.f, -2.f})
         cases.push_back({fmt::format("vertex normals sheared by {}", shear), frames, [shear] { return sheared_normals(shear); }});
     return cases;

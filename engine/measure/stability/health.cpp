@@ -103,7 +103,7 @@ std::vector<StabilityCase> health_cases() {
     std::vector<StabilityCase> cases;
     for (const float bad : {nan, inf, -1.f}) {
         cases.push_back({fmt::format("texel of {} in a colour", bad), not_numbers, [bad] { return bad_color(bad); }});
-        cases.push_back({fmt::format("texel of {} in a lamp", bad), not_numbers, [bad] { return bad_emission(bad); }});
+        cases.push_back({fmt::format("texel of {} in a light", bad), not_numbers, [bad] { return bad_emission(bad); }});
         cases.push_back({fmt::format("texel of {} in the world", bad), not_numbers, [bad] { return bad_world(bad); }});
     }
     for (const float bad : {nan, inf, 1e38f})

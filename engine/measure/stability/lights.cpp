@@ -31,7 +31,7 @@ FloorIrradiance of_point(const Vec3d& p, double candela) {
     };
 }
 
-Findings panel(const Light& light, const Transform& pose) {
+Findings area_light(const Light& light, const Transform& pose) {
     Scene scene;
     shine(scene, light, pose);
     const auto corners = rectangle_corners(light, pose);
@@ -63,7 +63,7 @@ Findings sun(float angle) {
     return quarters(scene, [cos](const Vec3d&) { return 7 * cos; });
 }
 
-// Two black plates at height 1, `width` apart, below a panel of 2 x 2 at height 2: a floor point sees a strip of the panel.
+// Two black plates at height 1, `width` apart, below an area light of 2 x 2 at height 2: a floor point sees a strip of the light.
 Findings slit(float width, int64_t spp) {
     Scene scene;
     const Light light = square(2, 100);
@@ -89,7 +89,7 @@ Findings candle_under_a_roof() {
     return quarters(scene, of_point({0, 1, 0}, 1), settings_for(16, 16, 1024));
 }
 
-// Only the weak panel lights the floor: the strong one faces away.
+// Only the weak area light illuminates the floor: the strong one faces away.
 Findings strong_and_weak() {
     Scene scene;
     const Light weak = square(1, 1e-6f);
@@ -101,9 +101,9 @@ Findings strong_and_weak() {
 }
 
 // At the edge of the floor, perpendicular to it.
-Findings upright_panel(float scale) {
+Findings upright_area_light(float scale) {
     Light light = square(2 * scale, 3);
-    return panel(light, aimed({-1, scale, 0}, {1, 0, 0}));
+    return area_light(light, aimed({-1, scale, 0}, {1, 0, 0}));
 }
 
 } // namespace
@@ -111,25 +111,28 @@ Findings upright_panel(float scale) {
 std::vector<StabilityCase> light_cases() {
     std::vector<StabilityCase> cases;
     for (const float side : {1e-6f, 1e-4f, 1e-2f, 1.f, 1e2f, 1e4f, 1e6f})
-        cases.push_back({fmt::format("panel {:g} m across", side), no_area, [side] { return panel(square(side, 3), overhead); }});
+        cases.push_back({fmt::format("area light {:g} m across", side), no_area, [side] { return area_light(square(side, 3), overhead); }});
     for (const float nits : {1e-6f, 1e-3f, 1e3f, 1e6f, 1e9f, 1e12f})
-        cases.push_back({fmt::format("panel of {:g} nits", nits), dynamic_range, [nits] { return panel(square(1, nits), overhead); }});
-    cases.push_back({"panel 1e-6 m across of 1e12 nits", no_area, [] { return panel(square(1e-6f, 1e12f), overhead); }});
-    cases.push_back({"panel 1e6 m across of 1e12 nits", dynamic_range, [] { return panel(square(1e6f, 1e12f), overhead); }});
-    cases.push_back({"panel 1e6 m across, 1e6 m away", no_area, [] { return panel(square(1e6f, 3), aimed({0, 1e6f, 0}, {0, -1, 0})); }});
+        cases.push_back(
+            {fmt::format("area light of {:g} nits", nits), dynamic_range, [nits] { return area_light(square(1, nits), overhead); }});
+    cases.push_back({"area light 1e-6 m across of 1e12 nits", no_area, [] { return area_light(square(1e-6f, 1e12f), overhead); }});
+    cases.push_back({"area light 1e6 m across of 1e12 nits", dynamic_range, [] { return area_light(square(1e6f, 1e12f), overhead); }});
+    cases.push_back({"area light 1e6 m across, 1e6 m away", no_area, [] {
+                         return area_light(square(1e6f, 3), aimed({0, 1e6f, 0}, {0, -1, 0}));
+                     }});
     for (const float scale : {0.5f, 100.f})
-        cases.push_back({fmt::format("upright panel {:g} m high on the floor's edge", 2 * scale), shadow_ends,
-                         [scale] { return upright_panel(scale); }});
+        cases.push_back({fmt::format("upright area light {:g} m high on the floor's edge", 2 * scale), shadow_ends,
+                         [scale] { return upright_area_light(scale); }});
     for (const float radius : {1e-4f, 1e-2f, 0.5f})
         cases.push_back({fmt::format("ball of radius {:g} m", radius), small_angles, [radius] { return ball(radius); }});
     cases.push_back({"point of 1e-6 cd", dynamic_range, [] { return candle(1e-6f, 1); }});
     cases.push_back({"point of 1e12 cd, 1e6 m away", dynamic_range, [] { return candle(1e12f, 1e6f); }});
     for (const float angle : {0.f, 1e-6f, 1e-4f, 0.00925f})
         cases.push_back({fmt::format("sun of angle {:g}", angle), small_angles, [angle] { return sun(angle); }});
-    cases.push_back({"panel seen through a slit of 20 mm", shadow_ends, [] { return slit(0.02f, 1024); }});
-    cases.push_back({"panel seen through a slit of 2 mm", shadow_ends, [] { return slit(0.002f, 4096); }});
+    cases.push_back({"area light seen through a slit of 20 mm", shadow_ends, [] { return slit(0.02f, 1024); }});
+    cases.push_back({"area light seen through a slit of 2 mm", shadow_ends, [] { return slit(0.002f, 4096); }});
     cases.push_back({"candle under a roof, beside 1e5 lux", dynamic_range, candle_under_a_roof});
-    cases.push_back({"panel of 1e-6 nits beside one of 1e12", dynamic_range, strong_and_weak});
+    cases.push_back({"area light of 1e-6 nits beside one of 1e12", dynamic_range, strong_and_weak});
     return cases;
 }
 

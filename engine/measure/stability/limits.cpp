@@ -85,7 +85,7 @@ Findings terminator() {
 }
 
 // Two coincident lights: NEE sees both, a ray hits only one. The correct result is undefined.
-Findings coincident_lamps() {
+Findings coincident_lights() {
     Scene scene;
     for (int i = 0; i < 2; ++i) place(scene, ceiling_quad(0.5f, 1), emitter(3));
     const Vec3d corners[] = {{-0.5, 1, -0.5}, {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}};
@@ -191,7 +191,7 @@ std::vector<StabilityCase> limit_cases() {
          "1e-6 of their extent"},
         {"coarse ball with shading normals, half lit", 5, terminator,
          "the shading terminator is not softened: facets that face away from a light are black, whatever their normals"},
-        {"two coincident lamps", 4, coincident_lamps,
+        {"two coincident lights", 4, coincident_lights,
          "NEE adds both, a ray hits one: scenes with coincident emitters have no unique result"},
         {"dark room at the edge of a wide world", 2, room_in_a_wide_world,
          "one origin serves the whole scene: parts far smaller than their distance from its middle, in units of 1e-6, leak at their "

@@ -67,8 +67,8 @@ Findings edge_in_a_mirror(double alpha) {
     return whole(render(scene, settings_for(16, 16, 256)), 0.5, 4 * alpha * alpha);
 }
 
-// A lamp of 1 mm in an almost smooth mirror: found by both sampling strategies, counted once.
-Findings lamp_in_a_mirror(double alpha, Strategy strategy) {
+// A light of 1 mm in an almost smooth mirror: found by both sampling strategies, counted once.
+Findings light_in_a_mirror(double alpha, Strategy strategy) {
     Scene scene;
     place(scene, floor_quad(10), metal(roughness_of(alpha)));
     place(scene, ceiling_quad(5e-4f, 1), emitter(1e6f));
@@ -94,10 +94,10 @@ std::vector<StabilityCase> microfacet_cases() {
         cases.push_back(
             {fmt::format("edge of light in a metal of alpha {:g}", alpha), smooth_limit, [alpha] { return edge_in_a_mirror(alpha); }});
     for (const double alpha : {0.99e-4, 1.01e-4, 3e-4})
-        cases.push_back({fmt::format("lamp in a metal of alpha {:g}", alpha), smooth_limit,
-                         [alpha] { return lamp_in_a_mirror(alpha, Strategy::mis); }});
+        cases.push_back({fmt::format("light in a metal of alpha {:g}", alpha), smooth_limit,
+                         [alpha] { return light_in_a_mirror(alpha, Strategy::mis); }});
     cases.push_back(
-        {"lamp in a metal of alpha 0.0003, BSDF sampling alone", smooth_limit, [] { return lamp_in_a_mirror(3e-4, Strategy::bsdf); }});
+        {"light in a metal of alpha 0.0003, BSDF sampling alone", smooth_limit, [] { return light_in_a_mirror(3e-4, Strategy::bsdf); }});
     return cases;
 }
 

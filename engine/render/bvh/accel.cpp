@@ -207,26 +207,26 @@ template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int cou
     }
 }
 
-// The scenes to trace. Lamps may have one of their own (null: they have not), whose geometries follow each other in the order of their
-// numbers in the top level: meshes from `first_mesh`, then spheres from `first_sphere`.
+// The scenes to trace. Area lights may have one of their own (null: they have not), whose geometries follow each other in the order of
+// their numbers in the top level: meshes from `first_mesh`, then spheres from `first_sphere`.
 struct TracedScenes {
-    RTCScene top, lamps;
-    uint32_t lamp_meshes, first_mesh, first_sphere;
+    RTCScene top, area_lights;
+    uint32_t area_light_meshes, first_mesh, first_sphere;
     float reach; // largest sum of coordinates of a ray that is traced
 };
 
-// Continues q, which holds the hits of the top level, in the scene of the lamps.
-template <int N> void intersect_lamps(const TracedScenes& scenes, RTCIntersectContext& context, const int* valid, auto& q) {
+// Continues q, which holds the hits of the top level, in the scene of the area lights.
+template <int N> void intersect_area_lights(const TracedScenes& scenes, RTCIntersectContext& context, const int* valid, auto& q) {
     alignas(64) uint32_t before[N];
     std::copy_n(q.hit.geomID, N, before);
     std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
-    Packet<N>::intersect(valid, scenes.lamps, &context, &q);
+    Packet<N>::intersect(valid, scenes.area_lights, &context, &q);
     for (int i = 0; i < N; ++i) {
         uint32_t& geometry = q.hit.geomID[i];
         if (geometry == RTC_INVALID_GEOMETRY_ID)
             geometry = before[i];
         else
-            geometry += geometry < scenes.lamp_meshes ? scenes.first_mesh : scenes.first_sphere - scenes.lamp_meshes;
+            geometry += geometry < scenes.area_light_meshes ? scenes.first_mesh : scenes.first_sphere - scenes.area_light_meshes;
     }
 }
 
@@ -240,7 +240,7 @@ void intersect_packets(const TracedScenes& scenes, RTCIntersectContext& context,
         std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
         valid_lanes<N>(valid, q.ray, count - k, scenes.reach);
         Packet<N>::intersect(valid, scenes.top, &context, &q);
-        if (scenes.lamps) intersect_lamps<N>(scenes, context, valid, q);
+        if (scenes.area_lights) intersect_area_lights<N>(scenes, context, valid, q);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
         copy(hits.u, q.hit.u);
@@ -259,9 +259,9 @@ void occluded_packets(const TracedScenes& scenes, RTCIntersectContext& context, 
         load_rays<N>(q, rays, k);
         valid_lanes<N>(valid, q, count - k, scenes.reach);
         Packet<N>::occluded(valid, scenes.top, &context, &q);
-        if (scenes.lamps) {
+        if (scenes.area_lights) {
             for (int i = 0; i < N; ++i) valid[i] &= -int(q.tfar[i] >= 0);
-            Packet<N>::occluded(valid, scenes.lamps, &context, &q);
+            Packet<N>::occluded(valid, scenes.area_lights, &context, &q);
         }
         const int n = std::min(N, count - k);
         for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
@@ -312,10 +312,10 @@ struct Accel::State {
     RTCDevice device = nullptr;
     int packet = 4;
     std::map<BottomKey, SceneHandle> bottoms;
-    bool own_lamps = false;              // lamps have a scene of their own
-    SceneHandle top, lamps;              // lamps.scene: null if the top level holds them, or if there are none
-    uint32_t first_lamp = 0;             // number of the first mesh of a lamp in the top level
-    uint32_t lamp_meshes = 0;            // in the scene of the lamps
+    bool own_area_lights = false;        // they have a scene of their own
+    SceneHandle top, area_lights;        // area_lights.scene: null if the top level holds them, or if there are none
+    uint32_t first_area_light = 0;       // number of the first mesh of an area light in the top level
+    uint32_t area_light_meshes = 0;      // in the scene of the area lights
     uint32_t first_instance = 0;         // Embree id of the first instance in the top level
     uint32_t first_sphere = 0;           // Embree id of the first sphere geometry, after the instances
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
@@ -336,7 +336,7 @@ struct Accel::State {
     }
     ~State() {
         top = {};
-        lamps = {};
+        area_lights = {};
         bottoms.clear();
         rtcReleaseDevice(device);
     }
@@ -345,7 +345,7 @@ struct Accel::State {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
             throw std::runtime_error(why_not_built(error, memory.bytes));
     }
-    TracedScenes scenes() const { return {top.scene, lamps.scene, lamp_meshes, first_lamp, first_sphere, reach}; }
+    TracedScenes scenes() const { return {top.scene, area_lights.scene, area_light_meshes, first_area_light, first_sphere, reach}; }
 };
 
 // Embree masks apply to whole geometries: consecutive spheres with equal masks share one.
@@ -361,21 +361,21 @@ void Accel::State::add_spheres(SceneHandle& to, std::span<const AccelSphere> sph
 Accel::Accel() : state_(std::make_unique<State>()) {}
 Accel::~Accel() = default;
 
-bool Accel::has_lamp_bvh() const { return state_->own_lamps; }
+bool Accel::has_area_light_bvh() const { return state_->own_area_lights; }
 
-void Accel::commit_lamps(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
-                         const Workers& workers) {
+void Accel::commit_area_lights(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
+                               const Workers& workers) {
     State& s = *state_;
-    s.lamps = {};
+    s.area_lights = {};
     s.sphere_indices.clear();
-    s.lamp_meshes = uint32_t(meshes.size());
+    s.area_light_meshes = uint32_t(meshes.size());
     if (meshes.empty() && spheres.empty()) return;
-    SceneHandle lamps(s.device);
-    for (const AccelTriangles& triangles : meshes) lamps.add_triangles(s.device, triangles, tables);
-    s.add_spheres(lamps, spheres);
-    lamps.commit(workers);
+    SceneHandle area_lights(s.device);
+    for (const AccelTriangles& triangles : meshes) area_lights.add_triangles(s.device, triangles, tables);
+    s.add_spheres(area_lights, spheres);
+    area_lights.commit(workers);
     s.check_for_errors();
-    s.lamps = std::move(lamps);
+    s.area_lights = std::move(area_lights);
 }
 
 void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers) {
@@ -386,15 +386,15 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
 
     size_t copies = 0;
     for (const AccelInstances& instances : scene.instances) copies += instances.places.size();
-    s.lamps = {};
-    s.own_lamps = copies >= min_instances_for_lamp_bvh;
-    s.first_lamp = uint32_t(s.own_lamps ? std::min(scene.first_lamp, scene.flat.size()) : scene.flat.size());
+    s.area_lights = {};
+    s.own_area_lights = copies >= min_instances_for_area_light_bvh;
+    s.first_area_light = uint32_t(s.own_area_lights ? std::min(scene.first_area_light, scene.flat.size()) : scene.flat.size());
     SceneHandle top(s.device);
     for (size_t i = 0; i < scene.flat.size(); ++i) {
-        if (i < s.first_lamp) top.add_triangles(s.device, scene.flat[i], tables);
+        if (i < s.first_area_light) top.add_triangles(s.device, scene.flat[i], tables);
         s.alpha |= scene.flat[i].alpha;
     }
-    // Numbers do not depend on where the lamps are: stochastic opacity is a function of the instance's.
+    // Numbers do not depend on where the area lights are: stochastic opacity is a function of the instance's.
     top.next_id = s.first_instance = uint32_t(scene.flat.size());
     uint32_t instance_count = 0;
     for (const AccelInstances& instances : scene.instances) {
@@ -419,8 +419,8 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         instance_count += uint32_t(instances.places.size());
     }
     s.first_sphere = s.first_instance + instance_count;
-    if (s.own_lamps)
-        commit_lamps(std::span(scene.flat).subspan(s.first_lamp), scene.spheres, tables, workers);
+    if (s.own_area_lights)
+        commit_area_lights(std::span(scene.flat).subspan(s.first_area_light), scene.spheres, tables, workers);
     else
         s.add_spheres(top, scene.spheres);
     top.commit(workers);

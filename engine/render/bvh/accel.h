@@ -50,7 +50,7 @@ struct AccelScene {
     std::vector<AccelTriangles> flat;      // world space; Embree's geometry id is the index
     std::vector<AccelInstances> instances; // numbered consecutively
     std::vector<AccelSphere> spheres;      // world space
-    size_t first_lamp = size_t(-1);        // flat[first_lamp] and the following are meshes of area lights
+    size_t first_area_light = size_t(-1);  // flat[first_area_light] and the following are meshes of area lights
     uint64_t memory_left = 0;              // bytes, for tests; 0: read from the system
 };
 
@@ -79,18 +79,18 @@ public:
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;
 
-    // Beside this many instances, lamps (meshes of area lights, and spheres) get a BVH of their own, so that moving one does not
+    // Beside this many instances, area lights (meshes and spheres) get a BVH of their own, so that moving one does not
     // rebuild the large top level. Beside fewer, a second traversal costs more than it saves.
-    static constexpr size_t min_instances_for_lamp_bvh = 4096;
+    static constexpr size_t min_instances_for_area_light_bvh = 4096;
 
     // Builds the top level for `scene` and the missing bottom levels; frees unused ones. `tables` is read by the opacity test
     // while tracing. Throws std::runtime_error if Embree fails (out of memory).
     void commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers);
-    // True if lamps have a BVH of their own.
-    bool has_lamp_bvh() const;
+    // True if area lights have a BVH of their own.
+    bool has_area_light_bvh() const;
     // Builds only that BVH: for as many meshes of area lights as committed last time, and any spheres. Throws like commit().
-    void commit_lamps(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
-                      const Workers& workers);
+    void commit_area_lights(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
+                            const Workers& workers);
 
     bool has_alpha() const;
     // Number of triangles in meshes whose BVH stores indices to save memory (compact_tree.h); each mesh counts once.

@@ -368,7 +368,7 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
     size_t instance = 0;
     for (size_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
-        if (!object.instanced && is_expanded(object.node)) scene.first_lamp = std::min(scene.first_lamp, scene.flat.size());
+        if (!object.instanced && is_expanded(object.node)) scene.first_area_light = std::min(scene.first_area_light, scene.flat.size());
         std::vector<AccelTriangles> triangles;
         for (const MeshPart& p : object.parts) {
             const size_t part = object_first_part_[i] + triangles.size();
@@ -387,12 +387,13 @@ AccelScene GeometryPool::accel_scene(const std::vector<SceneObject>& objects, co
     return scene;
 }
 
-std::vector<AccelTriangles> GeometryPool::accel_lamps(const std::vector<SceneObject>& objects, const std::vector<uint32_t>& masks) const {
-    std::vector<AccelTriangles> lamps;
+std::vector<AccelTriangles> GeometryPool::accel_area_lights(const std::vector<SceneObject>& objects,
+                                                            const std::vector<uint32_t>& masks) const {
+    std::vector<AccelTriangles> area_lights;
     for (size_t i = 0; i < objects.size() && !objects[i].instanced; ++i) // flat objects are first
         for (size_t k = 0; is_expanded(objects[i].node) && k < objects[i].parts.size(); ++k)
-            lamps.push_back(accel_triangles(objects[i].parts[k].geometry, object_first_part_[i] + k, masks[i]));
-    return lamps;
+            area_lights.push_back(accel_triangles(objects[i].parts[k].geometry, object_first_part_[i] + k, masks[i]));
+    return area_lights;
 }
 
 size_t GeometryPool::memory_bytes() const {

@@ -64,7 +64,7 @@ public:
     AccelScene accel_scene(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& alpha,
                            const std::vector<uint32_t>& masks) const;
     // The part of it that are flat meshes of area lights.
-    std::vector<AccelTriangles> accel_lamps(const std::vector<SceneObject>& objects, const std::vector<uint32_t>& masks) const;
+    std::vector<AccelTriangles> accel_area_lights(const std::vector<SceneObject>& objects, const std::vector<uint32_t>& masks) const;
     int64_t instance_count() const { return int64_t(instances_.size()); }
     // True if some part has smooth vertex normals.
     bool has_normals() const { return has_normals_; }

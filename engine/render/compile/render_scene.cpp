@@ -82,10 +82,10 @@ void RenderScene::update_caustic_casters(const Scene& scene, const RenderSetting
 // Records of emissive meshes, if these, their materials or area lights changed.
 void RenderScene::update_mesh_lights(const Scene& scene, bool aim_changed, const Workers& workers) {
     std::vector<float> spreads;
-    for (const size_t i : panels_) spreads.push_back(light_of_expanded_mesh(scene, objects_[i].node)->spread_radians);
-    const bool panels_changed = changed_.origin || changed_.panels || spreads != panel_spreads_;
-    if (!changed_.objects && !changed_.emission && !panels_changed && !aim_changed) return;
-    panel_spreads_ = std::move(spreads);
+    for (const size_t i : area_lights_) spreads.push_back(light_of_expanded_mesh(scene, objects_[i].node)->spread_radians);
+    const bool area_lights_changed = changed_.origin || changed_.area_lights || spreads != area_light_spreads_;
+    if (!changed_.objects && !changed_.emission && !area_lights_changed && !aim_changed) return;
+    area_light_spreads_ = std::move(spreads);
     mesh_lights_ = build_mesh_lights(scene, geometry_, tables_, emissive_parts_, aim_, mesh_lights_, workers);
     geometry_.set_first_lights(mesh_lights_.first_lights);
 }
@@ -121,7 +121,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     lights_.fill(tables_.lights);
     update_caustic_casters(scene, settings);
     update_groups(groups);
-    const bool same_parts = !changed_.objects && !changed_.panels;
+    const bool same_parts = !changed_.objects && !changed_.area_lights;
     links_ = build_light_links(scene, lights_, geometry_, casters_, same_parts ? links_ : LightLinks{});
     tables_.links = links_.empty() ? LinkTables{} : links_.tables();
     missing_light_ = blush::missing_light(scene, light_nodes_, used_.smooth);

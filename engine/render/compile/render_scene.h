@@ -60,8 +60,8 @@ private:
     void update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     std::vector<SceneObject> list_anew(const Scene& scene);
-    bool move_panels(const Scene& scene, const std::vector<Id<Node>>& moved);
-    void switch_panels(const Scene& scene);
+    bool move_area_lights(const Scene& scene, const std::vector<Id<Node>>& moved);
+    void switch_area_lights(const Scene& scene);
     void update_used_materials(const Scene& scene, const UpdatePlan& plan);
     void update_vertices(const UpdatePlan& plan, const std::vector<SceneObject>& before);
     void update_masks(const Scene& scene);
@@ -78,15 +78,15 @@ private:
 
     // What the current update has changed so far.
     struct Changed {
-        bool objects = false;  // listed anew, or their vertices laid out anew
-        bool panels = false;   // meshes of area lights moved, were disabled or enabled, or their masks changed
-        bool spheres = false;  // sphere lights
-        bool origin = false;   // of all positions
-        bool emission = false; // materials of emissive meshes
-        bool emitters = false; // which materials emit
-        bool casters = false;  // which materials cast caustics
-        bool alpha = false;    // which materials are not opaque
-        bool masks = false;    // ray masks of objects other than flat meshes of area lights
+        bool objects = false;     // listed anew, or their vertices laid out anew
+        bool area_lights = false; // meshes of area lights moved, were disabled or enabled, or their masks changed
+        bool spheres = false;     // sphere lights
+        bool origin = false;      // of all positions
+        bool emission = false;    // materials of emissive meshes
+        bool emitters = false;    // which materials emit
+        bool casters = false;     // which materials cast caustics
+        bool alpha = false;       // which materials are not opaque
+        bool masks = false;       // ray masks of objects other than flat meshes of area lights
     };
     // Members of light groups (light_groups.h).
     struct GroupsOfIds {
@@ -102,7 +102,7 @@ private:
     std::vector<Diagnostic> left_out_;  // objects, and instances of them
     std::vector<Id<Light>> light_ids_;  // of the scene
     std::vector<Id<Node>> light_nodes_; // with lights
-    std::vector<size_t> panels_;        // indices of objects that are meshes of area lights
+    std::vector<size_t> area_lights_;   // indices of objects that are meshes of area lights
     std::vector<SphereLight> spheres_;
     UsedMaterials used_;
     bool has_colors_ = false, has_catchers_ = false; // some object
@@ -116,7 +116,7 @@ private:
     std::vector<uint8_t> catchers_; // by part; empty: none
     LightLinks links_;
     std::vector<size_t> emissive_parts_;
-    std::vector<float> panel_spreads_; // of panels_, as mesh_lights_ has them
+    std::vector<float> area_light_spreads_; // of area_lights_, as mesh_lights_ has them
     MeshLights mesh_lights_;
     LightTable lights_;
     GroupsOfIds grouped_;                                 // as group_of_part_ has them

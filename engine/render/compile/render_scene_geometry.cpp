@@ -59,10 +59,10 @@ std::vector<SceneObject> RenderScene::list_anew(const Scene& scene) {
     has_geometry_ = !objects.empty();
     if (objects.empty()) objects = placeholder_objects();
     std::swap(objects, objects_);
-    panels_.clear();
+    area_lights_.clear();
     has_colors_ = false;
     for (size_t i = 0; i < objects_.size(); ++i) {
-        if (is_expanded(objects_[i].node)) panels_.push_back(i);
+        if (is_expanded(objects_[i].node)) area_lights_.push_back(i);
         for (const MeshPart& part : objects_[i].parts) has_colors_ |= !part.geometry->colors.empty();
     }
     has_catchers_ = has_catchers(scene);
@@ -71,31 +71,31 @@ std::vector<SceneObject> RenderScene::list_anew(const Scene& scene) {
 
 // Moves meshes of area lights. False if all objects must be listed anew: a mesh is shared, its transform is or was not finite, or it is
 // now, or no longer, a shadow catcher.
-bool RenderScene::move_panels(const Scene& scene, const std::vector<Id<Node>>& moved) {
+bool RenderScene::move_area_lights(const Scene& scene, const std::vector<Id<Node>>& moved) {
     if (moved.empty()) return true;
-    std::map<Id<Node>, size_t> panels;
-    for (const size_t i : panels_) panels.emplace(objects_[i].node, i);
+    std::map<Id<Node>, size_t> area_lights;
+    for (const size_t i : area_lights_) area_lights.emplace(objects_[i].node, i);
     WorldTransforms placements(scene);
     std::vector<std::pair<size_t, Affined>> places;
     for (const Id<Node> id : moved) {
         const NodeTransform& place = placements(id);
         if (!place.visible) continue;
-        const auto panel = panels.find(id);
-        if (panel == panels.end() || objects_[panel->second].instanced || !is_finite(place.world_from_node)) return false;
-        const bool catches = (masks_[panel->second] & catcher_ray_mask) != 0;
+        const auto area_light = area_lights.find(id);
+        if (area_light == area_lights.end() || objects_[area_light->second].instanced || !is_finite(place.world_from_node)) return false;
+        const bool catches = (masks_[area_light->second] & catcher_ray_mask) != 0;
         if (has_catchers_ && is_shadow_catcher(scene, id) != catches) return false;
-        places.emplace_back(panel->second, place.world_from_node);
+        places.emplace_back(area_light->second, place.world_from_node);
     }
     for (const auto& [i, place] : places) objects_[i].world_from_object = place;
-    changed_.panels = true;
+    changed_.area_lights = true;
     return true;
 }
 
 // Disables and enables meshes of area lights.
-void RenderScene::switch_panels(const Scene& scene) {
-    for (const size_t i : panels_) {
+void RenderScene::switch_area_lights(const Scene& scene) {
+    for (const size_t i : area_lights_) {
         const bool disabled = is_disabled_mesh(scene, objects_[i].node);
-        changed_.panels |= disabled != objects_[i].disabled;
+        changed_.area_lights |= disabled != objects_[i].disabled;
         objects_[i].disabled = disabled;
     }
 }
@@ -124,8 +124,8 @@ void RenderScene::update_vertices(const UpdatePlan& plan, const std::vector<Scen
         geometry_.build(objects_, needs_, extent_.origin);
     else if (changed_.objects || changed_.origin)
         geometry_.move(changed_.objects ? before : objects_, objects_, extent_.origin);
-    else if (changed_.panels)
-        for (const size_t i : panels_)
+    else if (changed_.area_lights)
+        for (const size_t i : area_lights_)
             if (!objects_[i].instanced) geometry_.move_flat(i, objects_[i]);
     changed_.objects |= rebuild;
     geometry_.set_materials(materials_);
@@ -149,11 +149,11 @@ void RenderScene::update_masks(const Scene& scene) {
         for (const SceneObject& object : objects_) masks_.push_back(mask(object));
         return;
     }
-    for (const size_t i : panels_) {
+    for (const size_t i : area_lights_) {
         const uint32_t now = mask(objects_[i]);
         if (now == masks_[i]) continue;
         masks_[i] = now;
-        (objects_[i].instanced ? changed_.masks : changed_.panels) = true;
+        (objects_[i].instanced ? changed_.masks : changed_.area_lights) = true;
     }
 }
 
@@ -176,16 +176,16 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     std::vector<SphereLight> spheres = list_sphere_lights(scene, light_nodes_);
     changed_.spheres = spheres != spheres_;
     spheres_ = std::move(spheres);
-    changed_.objects = plan.objects || plan.transforms || !move_panels(scene, plan.moved_panels);
+    changed_.objects = plan.objects || plan.transforms || !move_area_lights(scene, plan.moved_area_lights);
     const std::vector<SceneObject> before = changed_.objects ? list_anew(scene) : std::vector<SceneObject>{};
 
-    switch_panels(scene);
+    switch_area_lights(scene);
 
     const Vec3d origin_before = extent_.origin;
     if (changed_.objects)
         extent_ = extents_.extent_of(objects_, spheres_);
-    else if (changed_.panels || changed_.spheres)
-        extent_ = extents_.with_moved_lamps(objects_, spheres_);
+    else if (changed_.area_lights || changed_.spheres)
+        extent_ = extents_.with_moved_area_lights(objects_, spheres_);
     changed_.origin = extent_.origin != origin_before;
 
     update_used_materials(scene, plan);
@@ -197,10 +197,11 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
 }
 
 void RenderScene::update_accel(const Workers& workers) {
-    const bool all = changed_.objects || changed_.origin || changed_.alpha || changed_.masks, lamps = changed_.panels || changed_.spheres;
-    if (!all && !lamps) return;
-    if (!all && accel_.has_lamp_bvh())
-        return accel_.commit_lamps(geometry_.accel_lamps(objects_, masks_), accel_spheres(), &tables_, workers);
+    const bool all = changed_.objects || changed_.origin || changed_.alpha || changed_.masks,
+               area_lights = changed_.area_lights || changed_.spheres;
+    if (!all && !area_lights) return;
+    if (!all && accel_.has_area_light_bvh())
+        return accel_.commit_area_lights(geometry_.accel_area_lights(objects_, masks_), accel_spheres(), &tables_, workers);
     AccelScene accel = has_geometry_ ? geometry_.accel_scene(objects_, used_.alpha, masks_) : AccelScene{};
     accel.spheres = accel_spheres();
     accel_.commit(accel, &tables_, workers);

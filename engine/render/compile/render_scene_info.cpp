@@ -51,7 +51,7 @@ CompiledInfo RenderScene::info() const {
         info.meshes = int64_t(geometry_.parts().size());
         info.instances = geometry_.instance_count();
         for (size_t part = 0; part < geometry_.parts().size(); ++part) info.triangles += geometry_.triangle_count(part);
-        for (const size_t i : panels_) {
+        for (const size_t i : area_lights_) {
             if (!objects_[i].disabled) continue;
             info.meshes -= int64_t(objects_[i].copies() * objects_[i].parts.size());
             info.instances -= objects_[i].instanced ? int64_t(objects_[i].copies()) : 0;

@@ -45,21 +45,21 @@ Extent ExtentCache::extent_of(const std::vector<SceneObject>& objects, const std
             used.emplace(serial, known != by_serial_.end() ? known->second : bounds_of(*part.geometry));
         }
     by_serial_ = std::move(used);
-    without_lamps_ = {};
-    lamps_.clear();
+    without_area_lights_ = {};
+    area_lights_.clear();
     for (size_t i = 0; i < objects.size(); ++i) {
         if (is_expanded(objects[i].node))
-            lamps_.push_back(i);
+            area_lights_.push_back(i);
         else
-            include(objects[i], without_lamps_);
+            include(objects[i], without_area_lights_);
     }
-    return with_moved_lamps(objects, spheres);
+    return with_moved_area_lights(objects, spheres);
 }
 
-Extent ExtentCache::with_moved_lamps(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const {
+Extent ExtentCache::with_moved_area_lights(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const {
     Extent extent;
-    extent.bounds = without_lamps_;
-    for (const size_t i : lamps_) include(objects[i], extent.bounds);
+    extent.bounds = without_area_lights_;
+    for (const size_t i : area_lights_) include(objects[i], extent.bounds);
     for (const SphereLight& sphere : spheres)
         for (const double side : {-sphere.radius, sphere.radius}) extent.bounds.include(sphere.center + Vec3d{side, side, side});
     extent.origin = render_origin(extent.bounds);

@@ -29,14 +29,14 @@ class ExtentCache {
 public:
     Extent extent_of(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres);
     // The same if only meshes of area lights and spheres moved since the last extent_of(): reads no other object.
-    Extent with_moved_lamps(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const;
+    Extent with_moved_area_lights(const std::vector<SceneObject>& objects, const std::vector<SphereLight>& spheres) const;
 
 private:
     void include(const SceneObject& object, Bounds& bounds) const;
 
     std::map<uint64_t, Bounds> by_serial_; // object space
-    Bounds without_lamps_;                 // world space
-    std::vector<size_t> lamps_;            // indices of objects that are meshes of area lights
+    Bounds without_area_lights_;           // world space
+    std::vector<size_t> area_lights_;      // indices of objects that are meshes of area lights
 };
 
 } // namespace blush

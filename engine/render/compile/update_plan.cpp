@@ -10,7 +10,7 @@ UpdatePlan plan(const Changes& c) {
     UpdatePlan p;
     p.objects = !c.structure.empty() || !c.meshes.empty();
     p.transforms = p.objects || !std::ranges::all_of(c.moved_meshes, is_expanded);
-    if (!p.transforms) p.moved_panels = c.moved_meshes;
+    if (!p.transforms) p.moved_area_lights = c.moved_meshes;
     p.all_materials = p.objects || !c.textures.empty();
     if (!p.all_materials) p.materials = c.materials;
     p.environment_map = c.environment_image || c.nee_changed;

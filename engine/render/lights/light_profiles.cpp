@@ -1,6 +1,7 @@
 #include "render/lights/light_profiles.h"
 
 #include "core/math.h"
+#include "render/compile/expanded_lights.h"
 #include "scene/affine.h"
 #include "scene/lights/ies_profile.h"
 
@@ -11,11 +12,11 @@
 namespace blush {
 namespace {
 
-// Orthonormal frame from the node's axes: the light points along -Z; X is kept as far as it is perpendicular to that. Panels use
-// the normal of their plane, so that a panel under a skewed node still emits perpendicular to itself.
-void set_frame(ProfileRecord& record, const Affined& m, bool is_panel) {
+// Orthonormal frame from the node's axes: the light points along -Z; X is kept as far as it is perpendicular to that. Area lights use
+// the normal of their plane, so that an area light under a skewed node still emits perpendicular to itself.
+void set_frame(ProfileRecord& record, const Affined& m, bool flat) {
     Vec3d ahead = -m.z;
-    if (is_panel) {
+    if (flat) {
         const Vec3d normal = cross(m.x, m.y);
         ahead = dot(normal, m.z) < 0 ? normal : -normal;
     }
@@ -30,16 +31,16 @@ void set_frame(ProfileRecord& record, const Affined& m, bool is_panel) {
 } // namespace
 
 LightProfiles::Added LightProfiles::add(const Light& light, const Affined& world_from_node) {
-    const bool is_panel = light.kind == Light::Kind::rectangle || light.kind == Light::Kind::disk;
+    const bool flat = is_area_light(light);
     const bool is_spot = light.kind == Light::Kind::spot;
-    const bool has_spread = is_panel && light.spread_radians < float(std::numbers::pi);
+    const bool has_spread = flat && light.spread_radians < float(std::numbers::pi);
     const bool has_table = light.ies && (is_spot || light.kind == Light::Kind::point);
     if (!is_spot && !has_spread && !has_table) return {};
 
     ProfileRecord record{};
     record.cone_offset = 1;
     record.first = -1;
-    set_frame(record, world_from_node, is_panel);
+    set_frame(record, world_from_node, flat);
     double share = 1;
     if (is_spot) {
         const double inner = std::cos(double(light.inner_cone_radians)), outer = std::cos(double(light.outer_cone_radians));

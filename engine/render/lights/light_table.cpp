@@ -21,7 +21,7 @@ struct TableBuilder {
     NeeLights aim = NeeLights::all_lights;
     LightTable table;
     std::vector<LightBounds> bounds; // by entry of the light tree
-    int64_t luminaires = 0;          // at finite distance; a panel counts once, not per triangle
+    int64_t luminaires = 0;          // at finite distance; an area light counts once, not per triangle
 
     // `where`: of a light at finite distance; null: it is at infinity.
     void add(const LightRecord& record, Id<Node> node, double power, const LightBounds* where = nullptr) {

@@ -28,9 +28,9 @@ double mean_varying_luminance(const SceneTables& tables, size_t light, const Vec
     return std::max(sum / 16, 0.01 * luminance_of(factor));
 }
 
-float emission_angle(const Light* panel) {
+float emission_angle(const Light* area_light) {
     constexpr float all = 0.5f * std::numbers::pi_v<float>;
-    return panel ? std::min(0.5f * panel->spread_radians + float(angle_margin), all) : all;
+    return area_light ? std::min(0.5f * area_light->spread_radians + float(angle_margin), all) : all;
 }
 
 LightBounds triangle_bounds(const LightRecord& light, float theta_e, double power) {
@@ -199,10 +199,10 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
         const size_t part = parts[i];
         const int64_t triangles = geometry.triangle_count(part);
         const Id<Node> body{uint32_t(geometry.parts()[part].object)};
-        const Light* panel = light_of_expanded_mesh(scene, body);
-        lights.luminaires += panel ? 1 : triangles;
+        const Light* area_light = light_of_expanded_mesh(scene, body);
+        lights.luminaires += area_light ? 1 : triangles;
         lights.emissive_triangles += triangles;
-        const int32_t profile = panel ? lights.profiles.add(*panel, placements(body).world_from_node).profile : -1;
+        const int32_t profile = area_light ? lights.profiles.add(*area_light, placements(body).world_from_node).profile : -1;
         // A ray that hits the light reads its profile.
         if (aim == NeeLights::zero_size_lights && profile < 0) continue;
         if (!aimed[i]) {
@@ -211,7 +211,7 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
         }
         common.part_of_node = common.node == body ? common.part_of_node + 1 : 0;
         common.node = body;
-        common.theta_e = emission_angle(panel);
+        common.theta_e = emission_angle(area_light);
         const size_t first = lights.records.size();
         lights.first_lights.push_back({part, int32_t(first)});
         Emitter emitter = emitter_of(tables, geometry, part, profile);

@@ -38,7 +38,7 @@ struct MeshLights {
     LightProfiles profiles;
     int64_t emissive_triangles = 0;
     int64_t unsampled_triangles = 0; // beyond max_mesh_lights (light_limits.h)
-    int64_t luminaires = 0;          // a panel counts once, not per triangle
+    int64_t luminaires = 0;          // an area light counts once, not per triangle
 };
 
 // True for materials of emissive triangles that light the scene.

@@ -31,7 +31,7 @@ Project stage(bool crowded) {
     if (!crowded) return project;
     const Id<Mesh> twig = std::ranges::find_if(scene.meshes, [](const auto& m) { return m.value.name == "Twig"; })->id;
     auto places = std::make_shared<Instances>();
-    for (size_t i = 0; i < Accel::min_instances_for_lamp_bvh; ++i) {
+    for (size_t i = 0; i < Accel::min_instances_for_area_light_bvh; ++i) {
         const auto column = float(i % 64), row = float(i / 64);
         places->node_from_copy.push_back(
             {{0.03f, 0, 0}, {0, 0.03f, 0}, {0, 0, 0.03f}, {0.06f * column - 2, 0.04f * row - 1, -0.3f - 1e-4f * float(i)}});
@@ -210,7 +210,7 @@ TEST(LampBvh, ShowsTheSameImage) {
         return std::ranges::find_if(crowded.scene.nodes, [&](const auto& n) { return n.value.name == name; })->id;
     };
     const Id<Node> leaves = named("Leaves"), flag = named("Flag");
-    constexpr size_t all = Accel::min_instances_for_lamp_bvh, few = all - 64; // the scene has some other instances
+    constexpr size_t all = Accel::min_instances_for_area_light_bvh, few = all - 64; // the scene has some other instances
     const auto picture_of = [&](size_t count) {
         auto places = std::make_shared<Instances>(*crowded.scene.nodes.find(leaves)->instances);
         for (size_t i = few; i < all; ++i) {

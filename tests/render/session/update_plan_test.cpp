@@ -22,7 +22,7 @@ void PrintTo(const UpdatePlan& p, std::ostream* out) {
     say(p.camera, "camera ");
     say(p.clear_film, "clear_film ");
     say(p.features, "features ");
-    for (const Id<Node> id : p.moved_panels) *out << "panel " << id.value << " ";
+    for (const Id<Node> id : p.moved_area_lights) *out << "area light " << id.value << " ";
     for (const Id<Material> id : p.materials) *out << "material " << id.value << " ";
 }
 
@@ -81,7 +81,7 @@ UpdatePlan moved() {
 // The mesh of an area light.
 UpdatePlan moved_panel(Id<Node> body) {
     UpdatePlan p = lights();
-    p.moved_panels = {body};
+    p.moved_area_lights = {body};
     return p;
 }
 UpdatePlan listed_anew() {

@@ -24,14 +24,14 @@ void draw_button(PanelContext& c, const char* name, std::initializer_list<Comman
 
 constexpr const char* sky_tip = "Add a clear sky with sun.";
 constexpr const char* environment_tip = "Choose a panorama image (.hdr, .exr) as the environment.";
-constexpr const char* lamp_tip = "Add a rectangle light beside the subject.";
+constexpr const char* add_light_tip = "Add a rectangle light beside the subject.";
 
 void draw_choices(PanelContext& c) {
     ImGui::TextUnformatted("No light in this file");
     draw_button(c, "Studio", {Command::light_by_studio}, "Add three softboxes and a studio panorama.");
     draw_button(c, "Sky", {Command::light_by_sky}, sky_tip);
     draw_button(c, "Environment...", {Command::environment}, environment_tip);
-    draw_button(c, "Add light", {Command::add_rectangle}, lamp_tip);
+    draw_button(c, "Add light", {Command::add_rectangle}, add_light_tip);
 }
 
 // Other lighting replaces the studio: the step that added it is undone first.
@@ -40,7 +40,7 @@ void draw_choices_in_studio(PanelContext& c) {
     draw_button(c, "Keep", {}, "Keep the three softboxes and the panorama as lights of the scene. They are saved with it.");
     draw_button(c, "Sky", {Command::undo, Command::light_by_sky}, sky_tip);
     draw_button(c, "Environment...", {Command::undo, Command::environment}, environment_tip);
-    draw_button(c, "Add light", {Command::undo, Command::add_rectangle}, lamp_tip);
+    draw_button(c, "Add light", {Command::undo, Command::add_rectangle}, add_light_tip);
     draw_button(c, "No light", {Command::undo}, "Remove the studio lighting. The scene is black, as in the file.");
 }
 
