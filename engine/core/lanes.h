@@ -83,9 +83,17 @@ inline int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
 inline Wide sqrt(Wide x) { return stdx::sqrt(x); }
 inline Wide abs(Wide x) { return stdx::abs(x); }
 inline Wide floor(Wide x) { return stdx::floor(x); }
-// As for float: b where either is NaN.
-inline Wide min(Wide a, Wide b) { return select(a < b, a, b); }
-inline Wide max(Wide a, Wide b) { return select(a > b, a, b); }
+// As for float: b where either is NaN, or if they are equal.
+#if defined(__AVX512F__)
+inline Wide min(Wide a, Wide b) { return Wide(_mm512_min_ps(__m512(a), __m512(b))); }
+inline Wide max(Wide a, Wide b) { return Wide(_mm512_max_ps(__m512(a), __m512(b))); }
+#elif defined(__AVX__)
+inline Wide min(Wide a, Wide b) { return Wide(_mm256_min_ps(__m256(a), __m256(b))); }
+inline Wide max(Wide a, Wide b) { return Wide(_mm256_max_ps(__m256(a), __m256(b))); }
+#else
+inline Wide min(Wide a, Wide b) { return Wide(_mm_min_ps(__m128(a), __m128(b))); }
+inline Wide max(Wide a, Wide b) { return Wide(_mm_max_ps(__m128(a), __m128(b))); }
+#endif
 inline WideInt min(WideInt a, WideInt b) { return stdx::min(a, b); }
 inline WideInt max(WideInt a, WideInt b) { return stdx::max(a, b); }
 inline bool is_finite(float x) { return abs(x) <= 3.402823466e38f; }

@@ -6,6 +6,7 @@
 #include "core/tsan_annotations.h"
 #include "render/bvh/compact_bvh.h"
 #include "render/bvh/opacity.h"
+#include "render/bvh/small_scene.h"
 #include "render/compile/scene_tables.h"
 #include "scene/affine.h"
 
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace blush {
@@ -320,6 +322,7 @@ struct Accel::State {
     uint32_t first_sphere = 0;           // Embree id of the first sphere geometry, after the instances
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
     bool alpha = false;
+    std::optional<SmallScene> small;
     float reach = embree_range; // largest sum of coordinates of a ray that is traced
 
     State() : device(rtcNewDevice("start_threads=0,set_affinity=0")) {
@@ -428,8 +431,10 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     s.top = std::move(top);
     s.bottoms = std::move(kept);
     s.reach = reach;
+    s.small = make_small_scene(scene);
 }
 
+const SmallScene* Accel::small_scene() const { return state_->small ? &*state_->small : nullptr; }
 bool Accel::has_alpha() const { return state_->alpha; }
 size_t Accel::compact_triangles() const {
     size_t n = 0;

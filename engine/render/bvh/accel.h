@@ -16,6 +16,7 @@
 namespace blush {
 
 struct InstanceRecord;
+struct SmallScene;
 struct SceneTables;
 
 // A ray can hit an object if their masks share a bit. The other bits are
@@ -97,7 +98,11 @@ public:
     size_t compact_triangles() const;
     size_t memory_bytes() const;
 
-    // Closest hits and any-hits, in the widest packets that this machine
+    // The whole scene if it is so small that kernels trace it without the BVH (brute_force.h); null: it is not. Valid until the next
+    // commit.
+    const SmallScene* small_scene() const;
+
+    // By the BVH: closest hits and any-hits, in the widest packets that this machine
     // supports. `coherent`: rays share an origin region and direction.
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.

@@ -1,5 +1,7 @@
 // Lines of the feature report of a compiled scene.
 #include "render/compile/render_scene.h"
+
+#include "render/bvh/small_scene.h"
 #include "render/film/film.h"
 #include "render/lights/light_limits.h"
 
@@ -80,6 +82,12 @@ void add_vertices(FeatureReport& feature_report, const GeometryPool& geometry, c
             {"geometry", "copies of large shapes", false,
              n == 1 ? "it is read in place from the document" : fmt::format("{} are read in place from the document", n),
              int64_t(geometry.in_place_bytes())});
+}
+
+void add_tracer(FeatureReport& feature_report, const SmallScene* small) {
+    if (!small) return;
+    feature_report.push_back(
+        {"geometry", "BVH", false, fmt::format("{} faces in a closed room: testing all of them is faster", small->faces.size())});
 }
 
 // Only meshes with a bottom-level BVH of their own are candidates.
@@ -184,6 +192,7 @@ FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize&
                                         : "no mirror or glass has light to focus"});
     add_film(feature_report, film);
     add_vertices(feature_report, geometry_, needs_);
+    add_tracer(feature_report, accel_.small_scene());
     add_trees(feature_report, geometry_.largest_instanced_mesh(), accel_.compact_triangles());
     add_textures(feature_report, materials_.textures, expanded);
     add_lights(feature_report, lights_, environment_, expanded.environment, aim_);

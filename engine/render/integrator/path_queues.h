@@ -1,6 +1,7 @@
 // The queues of a tile: loads and stores paths and shadow rays in registers, and traces their rays with Embree.
 #pragma once
 
+#include "render/bvh/brute_force.h"
 #include "render/integrator/path.h"
 #include "render/kernels/kernel.h"
 
@@ -87,7 +88,7 @@ template <class F> void trace_rays(const KernelContext& context, Column<uint32_t
             store(random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
     const RayArrays rays{
         q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
-    context.accel->intersect(rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+    trace_closest<F>(*context.accel, rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
 
 inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue& q) {

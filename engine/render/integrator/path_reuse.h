@@ -244,7 +244,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
         queue_connections<F>(context.scene->caustic_casters, reuse, batch, group_size, q);
         const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
         // Not coherent: rays of one vertex form a narrow fan, but packets mix several vertices.
-        context.accel->occluded(rays, q.size, false, scratch.blocked);
+        trace_any<F>(*context.accel, rays, q.size, false, scratch.blocked);
         scratch.shadow_rays += q.size;
         for (int k = 0; k < q.size; ++k)
             if (scratch.blocked[k]) batch.density[q.slot[k]] = batch.drawn[q.slot[k]] = 0;

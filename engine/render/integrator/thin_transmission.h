@@ -219,8 +219,8 @@ template <Features S, class F> void connect_through_panes(const KernelContext& c
     HitColumns& h = scratch.hits;
     for (int round = 0; q.size > 0 && round < max_path_length; ++round) {
         if (round > 0) scratch.shadow_rays += q.size;
-        context.accel->intersect(shadow_rays_of(context, q), q.size, bounce == 0 && round == 0,
-                                 {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        trace_closest<F>(*context.accel, shadow_rays_of(context, q), q.size, bounce == 0 && round == 0,
+                         {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
         const int count = std::exchange(q.size, 0);
         for (int k = 0; k < count; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < count);

@@ -161,7 +161,7 @@ template <Features S, class F> void connect_paths(const KernelContext& context, 
     if constexpr (S.has(Feature::transmission))
         if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
     const ShadowQueue& q = scratch.shadows;
-    context.accel->occluded(shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
+    trace_any<F>(*context.accel, shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
     for (int k = 0; k < q.size; ++k)
         if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
 }
