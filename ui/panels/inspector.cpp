@@ -60,12 +60,12 @@ const char* inspector_guide_page(const PanelContext& c) {
     switch (c.ui.tab) {
     case InspectorTab::selection: {
         const Node* node = c.scene().nodes.find(c.ui.selected);
-        return node && node->light ? "guide/lighting.html#units-and-colour" : "guide/materials.html";
+        return node && node->light ? guide_page::light_units : guide_page::materials;
     }
-    case InspectorTab::camera: return "guide/display.html#exposure-and-white-balance";
-    case InspectorTab::environment: return "guide/lighting.html#kinds-of-lights";
-    case InspectorTab::render: return "guide/convergence.html";
-    case InspectorTab::display: return "guide/display.html";
+    case InspectorTab::camera: return guide_page::exposure;
+    case InspectorTab::environment: return guide_page::light_kinds;
+    case InspectorTab::render: return guide_page::convergence;
+    case InspectorTab::display: return guide_page::display;
     }
     return "README.html";
 }

@@ -128,7 +128,7 @@ void draw_snapshot_strip(PanelContext& c, const Region& region, const std::funct
     const std::vector<SnapshotPtr> list = c.ui.snapshots.list; // a copy: the menu may delete one
     const float em = ImGui::GetFontSize(), width = em * card_width, gap = em * card_gap, mark = guide_mark_width();
     begin_region("Snapshots guide", {region.x + region.width - mark, region.y, mark, region.height}, {.padded = false});
-    guide_mark(c.ui, "Guide/Snapshots", guide_page::snapshot_strip, ImGui::GetFrameHeight());
+    guide_mark(c.ui, "Guide/Snapshots", guide_page::snapshots, ImGui::GetFrameHeight());
     end_region();
     ImGui::SetNextWindowPos({region.x, region.y});
     ImGui::SetNextWindowSize({region.width - mark, region.height});

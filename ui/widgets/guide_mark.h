@@ -2,24 +2,13 @@
 // their right end.
 #pragma once
 
+#include "ui/widgets/guide_pages.h"
 #include "ui/window/ui_state.h"
 
 #include <imgui.h>
 #include <string>
 
 namespace blush {
-
-// Pages about the parts of the window that are no instruments and no tabs of the inspector.
-namespace guide_page {
-constexpr const char* outliner = "guide/first-steps.html#outliner";
-constexpr const char* viewport = "guide/first-steps.html#viewport";
-constexpr const char* status_bar = "guide/first-steps.html#status-bar";
-constexpr const char* timeline = "guide/first-steps.html#what-a-file-offers";
-constexpr const char* snapshot_strip = "guide/snapshots.html#keep";
-constexpr const char* file_browser = "guide/first-steps.html#file-browser";
-constexpr const char* shortcuts = "guide/first-steps.html";
-constexpr const char* all[] = {outliner, viewport, status_bar, timeline, snapshot_strip, file_browser, shortcuts};
-} // namespace guide_page
 
 // Width of the mark: pixels.
 float guide_mark_width();

@@ -144,7 +144,7 @@ struct UiState {
     std::optional<LookedThrough> light_camera;
     LightTableView light_table;
     bool show_shortcuts = false;
-    std::optional<std::string> guide_page; // page of the guide to open in a browser, for example "guide/lighting.html#kinds-of-lights"
+    std::optional<std::string> guide_page; // page of the guide to open in a browser (guide_pages.h)
     bool studio_banner = false;            // the file has no light and was opened with studio lighting; the banner is still shown
     bool opening_page = false;             // shown after a start without a scene
     std::vector<std::string> demos;        // scene files shipped with the program

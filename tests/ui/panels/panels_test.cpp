@@ -6,6 +6,7 @@
 #include "tests/ui/shipped_ocio_config.h"
 #include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/guide_pages.h"
 
 #include <algorithm>
 #include <cctype>
@@ -395,6 +396,7 @@ bool guide_has(const std::string& page) {
 TEST_F(Panels, EachHasAPageInTheGuide) {
     EXPECT_FALSE(guide_has("guide/lighting.html#none"));
     EXPECT_FALSE(guide_has("guide/none.html"));
+    for (const char* page : guide_page::all) EXPECT_TRUE(guide_has(page)) << page;
     for (const Instrument& i : instruments()) EXPECT_TRUE(guide_has(i.guide)) << i.id << ": " << i.guide;
     Document document(test::sample_project().project);
     PanelContext c{document, ui, color, frame, {}, 64, 48};
@@ -404,6 +406,18 @@ TEST_F(Panels, EachHasAPageInTheGuide) {
             ui.tab = InspectorTab(tab);
             EXPECT_TRUE(guide_has(inspector_guide_page(c))) << inspector_guide_page(c);
         }
+}
+
+TEST(GuidePages, AddressesAreInOnePlace) {
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(BLUSH_DOCS).parent_path() / "ui")) {
+        if (!entry.is_regular_file() || entry.path().filename() == "guide_pages.h") continue;
+        std::ifstream in(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        EXPECT_EQ(text.find("\"guide/"), std::string::npos) << entry.path() << " has an address that belongs into guide_pages.h";
+        ++files;
+    }
+    EXPECT_GT(files, 100);
 }
 
 } // namespace
