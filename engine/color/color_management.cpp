@@ -196,15 +196,22 @@ vec3 false_color(vec3 color) {{
 
 vec3 displayed(vec3 scene) {{
     vec3 exposed = sanitized(white_balance * scene * exp2(exposure_ev), {limit});
+#ifdef ALL_STEPS
     if (false_color_of != 0) return false_color(false_color_of == 1 ? scene : exposed);
+#endif
     vec3 encoded = clamp(sanitized(ocio_display(vec4(exposed, 1.0)).rgb, {limit}), 0.0, 1.0);
-    return pow(encoded, vec3(1.0 / max(gamma, {smallest_gamma})));
+#ifdef ALL_STEPS
+    encoded = pow(encoded, vec3(1.0 / max(gamma, {smallest_gamma})));
+#endif
+    return encoded;
 }}
 
 vec4 display_color(vec4 scene_linear) {{
     vec3 scene = sanitized(scene_linear.rgb, {largest_scene});
     vec3 shown = displayed(scene);
+#ifdef ALL_STEPS
     if (background_as_it_is) shown = mix(srgb_from_linear(clamp(scene, 0.0, 1.0)), shown, scene_linear.a);
+#endif
     return vec4(shown, scene_linear.a);
 }}
 )";

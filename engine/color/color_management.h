@@ -13,7 +13,8 @@
 namespace blush {
 
 // The display transform for a fragment shader: GLSL 3.30 source and lookup tables. The source defines `vec4 display_color(vec4
-// scene_linear)`, whose alpha is the coverage by objects, and has a uniform for each DisplayNumber.
+// scene_linear)`, whose alpha is the coverage by objects, and has a uniform for each of DisplayParameters. Gamma, false colours and
+// an unprocessed background need `#define ALL_STEPS` before the source: a software rasterizer executes both sides of a condition.
 struct DisplayShader {
     struct Lut {
         std::string sampler; // name of the uniform sampler

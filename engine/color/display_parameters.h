@@ -23,6 +23,8 @@ struct DisplayParameters {
     FalseColorScale false_color = {};
     bool background_as_it_is = false; // the background behind all objects is only clipped and sRGB-encoded
     bool operator==(const DisplayParameters&) const = default;
+    // False if the shader without ALL_STEPS gives the same colours (DisplayShader in color_management.h).
+    bool needs_all_steps() const { return gamma != 1 || false_color.of != FalseColorScale::Of::off || background_as_it_is; }
 };
 
 } // namespace blush

@@ -13,19 +13,25 @@ uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
 uniform vec2 denoised_scale;
 uniform bool over_checker;
+#ifdef ALL_STEPS
 float squares() {
     ivec2 square = ivec2(gl_FragCoord.xy) / 8;
     return (square.x + square.y) % 2 == 0 ? 0.40 : 0.52;
 }
+#endif
 // display_color is the costly part, and software OpenGL computes both sides of a condition: it is called once.
 void main() {
     vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
     vec3 color = raw_weight * pixel.rgb;
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
+#ifdef ALL_STEPS
     float coverage = clamp(pixel.a, 0.0, 1.0);
     float unpremultiply = over_checker && pixel.a > 0.0 ? 1.0 / pixel.a : 1.0;
     vec3 shown = display_color(vec4(abs(color) * unpremultiply, over_checker ? 1.0 : pixel.a)).rgb;
     result = vec4(over_checker ? mix(vec3(squares()), shown, coverage) : shown, 1.0);
+#else
+    result = vec4(display_color(vec4(abs(color), pixel.a)).rgb, 1.0);
+#endif
 })";
 
 // Milliseconds between checks of the clock: the time of a step is only predicted from the previous one, and other threads can
@@ -76,17 +82,20 @@ void set_numbers(GLuint program, const DisplayParameters& n) {
 } // namespace
 
 Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
-    auto program = make_fill_program(shader.text + main_source);
-    if (!program) return program.error();
-    program_ = std::move(*program);
+    auto common = make_fill_program(shader.text + main_source),
+         complete = make_fill_program("#define ALL_STEPS\n" + shader.text + main_source);
+    if (!common) return common.error();
+    if (!complete) return complete.error();
+    common_ = std::move(*common);
+    complete_ = std::move(*complete);
     if (!no_vertices_) no_vertices_ = GlVertexArray::create();
     tables_.clear();
-    glUseProgram(program_.name());
-    glUniform1i(glGetUniformLocation(program_.name(), "image"), image_unit);
-    glUniform1i(glGetUniformLocation(program_.name(), "denoised"), denoised_unit);
-    for (const DisplayShader::Lut& lut : shader.luts) {
-        glUniform1i(glGetUniformLocation(program_.name(), lut.sampler.c_str()), first_table_unit + GLint(tables_.size()));
-        tables_.push_back(upload_table(lut));
+    for (const DisplayShader::Lut& lut : shader.luts) tables_.push_back(upload_table(lut));
+    for (const GLuint program : {common_.name(), complete_.name()}) {
+        glUseProgram(program);
+        set(program, "image", image_unit);
+        set(program, "denoised", denoised_unit);
+        for (size_t i = 0; i < shader.luts.size(); ++i) set(program, shader.luts[i].sampler.c_str(), first_table_unit + GLint(i));
     }
     return {};
 }
@@ -138,7 +147,7 @@ void DisplayPass::upload(int width, int height, Values rgba) {
 
 void DisplayPass::begin(const DisplayLook& look) {
     look_ = look;
-    if (program_) next_row_ = 0;
+    if (common_) next_row_ = 0;
 }
 
 void DisplayPass::draw_rows(int first, int count) {
@@ -146,12 +155,13 @@ void DisplayPass::draw_rows(int first, int count) {
     target.begin(width_, height_);
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, first, width_, count);
-    glUseProgram(program_.name());
-    set_numbers(program_.name(), look_.numbers);
-    set(program_.name(), "raw_weight", look_.mix.raw_weight);
-    set(program_.name(), "denoised_weight", look_.mix.denoised_weight);
-    set(program_.name(), "over_checker", int(look_.over_checker));
-    glUniform2f(glGetUniformLocation(program_.name(), "denoised_scale"), float(denoised_.width) / float(width_),
+    const GLuint program = (look_.needs_all_steps() ? complete_ : common_).name();
+    glUseProgram(program);
+    set_numbers(program, look_.numbers);
+    set(program, "raw_weight", look_.mix.raw_weight);
+    set(program, "denoised_weight", look_.mix.denoised_weight);
+    set(program, "over_checker", int(look_.over_checker));
+    glUniform2f(glGetUniformLocation(program, "denoised_scale"), float(denoised_.width) / float(width_),
                 float(denoised_.height) / float(height_));
     glActiveTexture(GL_TEXTURE0 + image_unit);
     glBindTexture(GL_TEXTURE_2D, image_.texture.name());

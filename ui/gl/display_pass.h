@@ -17,6 +17,7 @@ struct DisplayLook {
     PictureMix mix;
     bool over_checker = false; // alpha is the opacity of premultiplied colours; transparent pixels show a checkerboard
     bool operator==(const DisplayLook&) const = default;
+    bool needs_all_steps() const { return over_checker || numbers.needs_all_steps(); }
 };
 
 class DisplayPass {
@@ -77,7 +78,7 @@ private:
     void step(double milliseconds);
     void draw_rows(int first, int count);
 
-    GlProgram program_;
+    GlProgram common_, complete_; // without and with the steps that most looks leave out (DisplayLook::needs_all_steps)
     GlVertexArray no_vertices_;
     Picture image_{GL_RGBA}, denoised_{GL_RGB};
     std::vector<std::pair<GLenum, GlTexture>> tables_; // in the texture units after those of the pictures
