@@ -16,12 +16,6 @@
 namespace blush {
 namespace {
 
-std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
-    std::error_code missing; // it may be in the middle of a rewrite: the next check decides
-    const auto time = std::filesystem::last_write_time(file, missing);
-    return missing ? std::filesystem::file_time_type{} : time;
-}
-
 // Shows the first warnings of the import report in a toast; the panel has all.
 void report(UiState& ui, const std::filesystem::path& file, const ImportReport& r) {
     ui.import_report.file = file.filename().string();
@@ -78,15 +72,21 @@ Id<Node> same_node(const Scene& before, Id<Node> id, const Scene& after) {
 
 } // namespace
 
-void FileWatch::watch(const std::filesystem::path& file) {
+FileWatch::Time FileWatch::time_of(const std::filesystem::path& file) {
+    std::error_code missing; // it may be in the middle of a rewrite: the next check decides
+    const Time time = std::filesystem::last_write_time(file, missing);
+    return missing ? Time{} : time;
+}
+
+void FileWatch::watch(const std::filesystem::path& file, Time known) {
     file_ = file;
-    known_ = seen_ = time_of(file);
+    known_ = seen_ = known;
 }
 
 bool FileWatch::changed() {
     if (file_.empty()) return false;
     const auto now = time_of(file_);
-    const bool settled = now == seen_ && now != known_ && now != std::filesystem::file_time_type{};
+    const bool settled = now == seen_ && now != known_ && now != Time{};
     seen_ = now;
     if (settled) known_ = now;
     return settled;
@@ -127,6 +127,7 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
     keep_view_ = options.keep_view;
     std::error_code error;
     importing_ = std::filesystem::absolute(file, error); // the recent list must not depend on the working directory
+    importing_since_ = FileWatch::time_of(importing_);
     preview_.reset();
     early_ = std::make_shared<EarlyScene>();
     // No preview for imports, reloads and recovery: the open scene stays visible.
@@ -241,7 +242,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.light_camera.reset(); // ids may refer to other objects now
     ui.placing_by = PlacingBy::hand;
     ui.light_table.renaming = {};
-    watch_.watch(scene_file_);
+    watch_.watch(scene_file_, importing_since_);
     reset_document(document, ui, std::move(project), purpose_ == Purpose::open ? std::move(opened->lit) : std::nullopt);
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project(), std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) restore_scene_ui(ui.settings, scene_file_.string(), document.project().scene, ui);
@@ -268,7 +269,7 @@ bool EditorFiles::finish_save(Document& document, UiState& ui, Result<SavedGltf>
     written_by_blush_ = true;
     scene_file_ = std::filesystem::absolute(origin_.file, error);
     remember_recent(ui.settings.recent, scene_file_.string());
-    watch_.watch(scene_file_);
+    watch_.watch(scene_file_, FileWatch::time_of(scene_file_));
     document.mark_saved(saving_);
     std::string details = scene_file_.parent_path().string();
     for (const Diagnostic& d : saved->diagnostics) details += "\n" + d.what;

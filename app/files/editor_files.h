@@ -28,12 +28,17 @@ namespace blush {
 // Detects that a file was rewritten: its modification time has changed, and is the same in two consecutive checks.
 class FileWatch {
 public:
-    void watch(const std::filesystem::path& file);
+    using Time = std::filesystem::file_time_type;
+    // Time of the last change; Time{} if the file is missing.
+    static Time time_of(const std::filesystem::path& file);
+    // `known`: of the version that was read or written.
+    void watch(const std::filesystem::path& file, Time known);
+    // True once for each new version.
     bool changed();
 
 private:
     std::filesystem::path file_;
-    std::filesystem::file_time_type known_{}, seen_{};
+    Time known_{}, seen_{};
 };
 
 // Command line options for the first file.
@@ -137,6 +142,7 @@ private:
 
     Purpose purpose_ = Purpose::open;
     std::filesystem::path importing_, environment_, map_file_;
+    FileWatch::Time importing_since_{}; // version of the file that is being read
     bool keep_settings_ = false, keep_view_ = false;
     bool keep_edits_ = false;           // for a reload
     std::shared_ptr<EarlyScene> early_; // of the running import

@@ -133,5 +133,18 @@ TEST(EditorFiles, AnotherFileReplacesThePreview) {
     });
 }
 
+TEST(FileWatch, SeesAChangeWhileTheFileWasRead) {
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder / "scene.gltf";
+    test::write_bytes(file, "{}");
+    const FileWatch::Time read = FileWatch::time_of(file);
+    std::filesystem::last_write_time(file, read + std::chrono::seconds(1));
+    FileWatch watch;
+    watch.watch(file, read);
+    EXPECT_FALSE(watch.changed()) << "it may still be written";
+    EXPECT_TRUE(watch.changed());
+    EXPECT_FALSE(watch.changed()) << "once";
+}
+
 } // namespace
 } // namespace blush::TEST_FILE
