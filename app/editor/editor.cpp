@@ -24,7 +24,7 @@
 #include "ui/viewport/viewport.h"
 #include "ui/window/automation.h"
 #include "ui/window/frame_stats.h"
-#include "ui/window/popups.h"
+#include "ui/window/imgui_state.h"
 #include "ui/window/ui_persistence.h"
 #include "ui/window/window.h"
 

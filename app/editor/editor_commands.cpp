@@ -10,7 +10,7 @@
 #include "ui/viewport/view_tools.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/window/docks.h"
-#include "ui/window/popups.h"
+#include "ui/window/imgui_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "ui/window/window.h"
 
 #include "ui/gl/overdraw.h"
+#include "ui/window/imgui_state.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -209,6 +210,7 @@ void Window::begin_frame() {
 void Window::end_frame() {
     ImGui::Render();
     ImDrawData& drawn = *ImGui::GetDrawData();
+    if (needs_another_frame()) request_frames(1);
     reduce_overdraw(drawn);
     // The size at the start of the frame: another query would wait for the display server.
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));

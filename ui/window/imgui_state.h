@@ -1,0 +1,15 @@
+// State of ImGui that its public interface does not tell: the stack of open popups (menus, combo boxes, colour pickers, dialogs), and
+// whether it has settled.
+#pragma once
+
+namespace blush {
+
+bool any_popup_open();
+// Closes the most recent popup. False if none is open.
+bool close_top_popup();
+
+// True if the frame that was just built needs another one to have its effect: a new window is only measured yet and not shown, or the
+// keyboard goes to a text field. Call it before ImGui::Render() or after.
+bool needs_another_frame();
+
+} // namespace blush
