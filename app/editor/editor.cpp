@@ -157,15 +157,15 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
 
 void Editor::run() {
     while (!leaving_) {
-        ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, max_sleep);
-        const bool asked = window_->wait(ui_.seconds_to_next_frame);
-        const bool moves_by_itself = ui_.seconds_to_next_frame < max_sleep;
-        frame_begin_ = Clock::now();
-        pace_.begin(frame_begin_);
+        const auto sleeps_since = Clock::now();
+        const bool frame_is_due = ui_.seconds_to_next_frame <= max_sleep;
+        const bool asked = window_->wait(std::clamp(ui_.seconds_to_next_frame, 0.0, max_sleep));
+        pace_.begin(frame_begin_ = Clock::now());
+        ui_.seconds_to_next_frame -= std::chrono::duration<double>(frame_begin_ - sleeps_since).count();
         const uint64_t toasts = ui_.toasts.added();
         poll();
         if (ui_.toasts.added() != toasts) window_->request_frames(2);
-        if (!asked && !moves_by_itself && !window_->wait(0)) continue;
+        if (!asked && !frame_is_due && !window_->wait(0)) continue;
         latest();
         panels();
         submit();
@@ -246,7 +246,7 @@ void Editor::panels() {
     display_.meter(view.auto_exposure, pictures_.frame);
     window_->set_text_size(ui_.settings.text_size);
     window_->begin_frame();
-    ui_.seconds_to_next_frame = max_sleep;
+    ui_.seconds_to_next_frame = 1e9;
     ui_.probe.begin_frame();
     ui_.wraps_cursor = false;
     mix_.follow(pictures_.frame, document_shown());
