@@ -106,15 +106,12 @@ private:
     StartPage opening_page_{options_.assets, &Window::wake};
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
-
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
     uint64_t last_revision_ = 0;
     uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
     bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
-
     bool remembered_follow_viewport_ = true; // the saved setting, before the command line
-
-    Layout layout_; // of the last UI frame
+    Layout layout_;                          // of the last UI frame
     bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
@@ -446,6 +443,8 @@ void Editor::draw() {
         state.shown = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     window_->end_frame();
+    state.inputs = window_->settled_inputs();
+    state.settled = !window_->frames_due() && ui_.seconds_to_next_frame > 0;
     const auto now = Clock::now();
     const FrameTimes took = pace_.end(now);
     // Loading and shader compilation before the first picture are not part of the statistics.

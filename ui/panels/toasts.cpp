@@ -22,12 +22,13 @@ void begin_card(const char* id, float right, float bottom, ImU32 edge) {
 }
 
 // Returns the card's upper edge.
-float end_card() {
-    const float top = ImGui::GetWindowPos().y;
+float end_card(PanelContext& c, const std::string& name) {
+    const ImVec2 at = ImGui::GetWindowPos();
+    c.ui.probe.record("Card/" + name, {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     ImGui::End();
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);
-    return top;
+    return at.y;
 }
 
 ImU32 edge_of(Toast::Kind kind) {
@@ -52,7 +53,7 @@ void draw_texts(const Toast& toast, float width) {
 }
 
 // Each draws cards from `bottom` upwards and sets `bottom` to the upper edge of the last one.
-bool draw_job(const PanelContext& c, const RunningJob& job, float right, float width, float& bottom) {
+bool draw_job(PanelContext& c, const RunningJob& job, float right, float width, float& bottom) {
     const float em = ImGui::GetFontSize();
     begin_card("##job", right, bottom, IM_COL32(90, 90, 90, 255));
     elided_text(c.ui, job.title, tone::text, width);
@@ -64,7 +65,7 @@ bool draw_job(const PanelContext& c, const RunningJob& job, float right, float w
         c.ui.probe.record_last_item("Job/Cancel");
     }
     if (!job.what.empty()) elided_text(c.ui, job.what, tone::dim_text, width);
-    bottom = end_card() - em / 2;
+    bottom = end_card(c, "job") - em / 2;
     return cancelled;
 }
 
@@ -85,7 +86,7 @@ void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
             dismissed = i;
         }
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) dismissed = i;
-        bottom = end_card() - ImGui::GetFontSize() / 2;
+        bottom = end_card(c, std::to_string(i)) - ImGui::GetFontSize() / 2;
     }
     if (dismissed) c.ui.toasts.dismiss(*dismissed);
 }

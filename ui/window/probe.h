@@ -20,6 +20,13 @@ struct ProbeState {
     bool up_to_date = false; // the picture shows the latest edit
     std::string toast;       // the newest toast
     std::string shown = {};  // shown_text(): raw, denoised, ...
+    // What the window has taken up of the user's input, so that a test waits for it instead of sleeping: presses and releases of keys
+    // and mouse buttons and turns of the wheel, as of the last frame after which nothing was left to settle.
+    uint64_t inputs = 0;
+    bool settled = false; // no frame is due now
+    // Taken from ImGui by Probe::end_frame().
+    int mouse_x = 0, mouse_y = 0;
+    bool typing = false; // a text field has the keyboard
     bool operator==(const ProbeState&) const = default;
 };
 

@@ -101,7 +101,7 @@ Window::~Window() {
 void Window::install_callbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
-        owner(w).request_frames(frames_after_input);
+        owner(w).take_input(action != GLFW_REPEAT);
         if (action == GLFW_RELEASE) return;
         const bool letter_repeats = action == GLFW_REPEAT && !(mods & GLFW_MOD_CONTROL);
         if (!letter_repeats)
@@ -112,9 +112,9 @@ void Window::install_callbacks() {
         owner(w).request_frames(frames_after_input);
         owner(w).dropped_files_.insert(owner(w).dropped_files_.end(), files, files + count);
     });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { owner(w).take_input(true); });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(1); });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { owner(w).request_frames(frames_after_input); });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { owner(w).take_input(true); });
     // The character event follows the press of its key.
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
         owner(w).request_frames(frames_after_input);
@@ -171,6 +171,11 @@ bool Window::wait(double timeout_seconds) {
 
 void Window::request_frames(int count) { frames_due_ = std::max(frames_due_, count); }
 
+void Window::take_input(bool counts) {
+    inputs_ += counts;
+    request_frames(frames_after_input);
+}
+
 void Window::wake() {
     woken = true;
     glfwPostEmptyEvent();
@@ -211,6 +216,7 @@ void Window::end_frame() {
     ImGui::Render();
     ImDrawData& drawn = *ImGui::GetDrawData();
     if (needs_another_frame()) request_frames(1);
+    if (frames_due_ == 0) settled_inputs_ = inputs_;
     reduce_overdraw(drawn);
     // The size at the start of the frame: another query would wait for the display server.
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));

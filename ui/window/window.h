@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "ui/window/shortcuts.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -48,6 +49,11 @@ public:
     // Renders ImGui's draw data over a cleared window and swaps the buffers.
     void end_frame();
 
+    bool frames_due() const { return frames_due_ > 0; }
+    // Number of presses and releases of keys and mouse buttons and turns of the wheel, as of the last frame after which no frame was
+    // pending: ImGui has settled after them.
+    uint64_t settled_inputs() const { return settled_inputs_; }
+
     bool close_requested() const;
     void request_close();
     void cancel_close();
@@ -72,6 +78,7 @@ private:
     void begin_imgui();
     void apply_scale();
     void unwrap_mouse();
+    void take_input(bool counts);
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
@@ -83,6 +90,7 @@ private:
     bool wraps_cursor_ = false;
     double unwrapped_x_ = 0, unwrapped_y_ = 0; // from the cursor to ImGui's mouse position
     int frames_due_ = 3;
+    uint64_t inputs_ = 0, settled_inputs_ = 0;
     std::vector<KeyPress> key_presses_;
     std::vector<std::filesystem::path> dropped_files_;
 };

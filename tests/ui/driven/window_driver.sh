@@ -39,7 +39,7 @@ until_true() {
     until "$@" 2>/dev/null; do
         [ $SECONDS -lt $end ] || return 1
         [ -z "$editor" ] || kill -0 "$editor" 2>/dev/null || return 1
-        sleep 0.1
+        sleep 0.05
     done
 }
 
@@ -54,7 +54,7 @@ start_display() {
     cd "$work" || exit 1
 }
 
-overlays_off() { xdotool key h; }
+overlays_off() { press h; }
 # open_file FILE [unanswered]: waits until it has converged, overlays off; with a second argument, only until there is a window.
 # With an empty FILE, none is given.
 open_file() {
@@ -89,6 +89,55 @@ close_editor() {
     leaves "Ctrl+Q does not close the window" discard_if_asked
 }
 
+# ---- input: each of these waits until the window has taken it up and has settled
+taken() { [ "$(number 1 inputs)" -ge "$1" ]; }
+# input COUNT COMMAND...: the command makes at least this many presses and releases of keys and buttons or turns of the wheel.
+input() {
+    local count=$1 before
+    shift
+    before=$(number 1 inputs)
+    "$@"
+    # A window that this closes takes up the rest of it no more.
+    until_true 60 taken $((before + count)) || gone || fail "the window does not take up: $*"
+}
+mouse_is_at() { state mouse_x "$1" && state mouse_y "$2"; }
+# point_at X Y: moves the mouse.
+point_at() {
+    local x=$(($1 > 0 ? $1 : 0)) y=$(($2 > 0 ? $2 : 0))
+    xdotool mousemove "$x" "$y"
+    until_true 60 mouse_is_at "$x" "$y" || fail "the mouse does not come to $x $y"
+}
+# click_here [BUTTON [XDOTOOL'S OPTIONS]]
+click_here() { input 2 xdotool click "${@:2}" "${1:-1}"; }
+hold_button() { input 1 xdotool mousedown 1; }
+release_button() { input 1 xdotool mouseup 1; }
+# press KEYS...: each with modifiers, such as ctrl+z.
+press() {
+    local keys="$*"
+    input $(($(wc -w <<<"${keys//+/ }") * 2)) xdotool key "$@"
+}
+# As press, but held for longer than a frame on a busy machine: fields only see keys that are down at the start of a frame.
+hold() {
+    local count
+    count=$(wc -w <<<"${1//+/ }")
+    input "$count" xdotool keydown "$1"
+    input "$count" xdotool keyup "$1"
+}
+# move_by DX DY: from where the mouse is.
+move_by() { point_at $(($(number 1 mouse_x) + $1)) $(($(number 1 mouse_y) + $2)); }
+typing() { state typing true; }
+# double_click WIDGET: begins typing into a field.
+double_click() {
+    started() { typing || { input 4 xdotool click --repeat 2 --delay 60 1 && typing; }; } # between two late frames, clicks are lost
+    until_true 30 has_widget "$1" || fail "there is no $1 to type into"
+    point_at $(middle "$1")
+    until_true 30 started || fail "a double-click into $1 does not begin typing"
+}
+type_text() {
+    local shifted=${1//[^A-Z_~:\"<>?+(){\}|!@#$%^&*]/}
+    input $((2 * (${#1} + ${#shifted}))) xdotool type --delay 50 -- "$1"
+}
+
 # The probe's first line is the state, each further one a widget.
 state() { head -n 1 "$probe" | grep -q "\"$1\":$2[,}]"; }
 number() { sed -n "$1s/.*\"$2\":\\(-\\{0,1\\}[0-9.]*\\).*/\\1/p" "$probe"; }
@@ -119,9 +168,19 @@ middle() {
     echo "$(field "$1" x) $(field "$1" width) $(field "$1" y) $(field "$1" height) ${2:-50}" |
         awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 / 2 }'
 }
+# point_at_widget WIDGET [PER_CENT]: as middle. Panels and menus may still move until the mouse has come.
+point_at_widget() {
+    local at
+    until_true 30 has_widget "$1" || fail "there is no $1 to point at"
+    until
+        at=$(middle "$@")
+        point_at $at
+        [ "$(middle "$@")" = "$at" ]
+    do :; done
+}
 click() {
-    until_true 30 has_widget "$1" || fail "there is no $1 to click"
-    xdotool mousemove $(middle "$1") && sleep 0.3 && xdotool click 1 && sleep 0.3
+    point_at_widget "$1"
+    click_here
 }
 # click_choice WIDGET NAME: selects an entry of a combo box.
 click_choice() { click "$1" && click "$1/$2"; }
@@ -129,9 +188,11 @@ click_choice() { click "$1" && click "$1/$2"; }
 click_menu() { click "Menu bar/$1" && click "Menu/$2"; }
 # drag_from X Y X Y
 drag_from() {
-    xdotool mousemove "$1" "$2" && sleep 0.3 && xdotool mousedown 1 && sleep 0.3
-    xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) && sleep 0.3 && xdotool mousemove "$3" "$4" && sleep 0.3
-    xdotool mouseup 1 && sleep 0.3 # the last of it is taken up
+    point_at "$1" "$2"
+    hold_button
+    point_at $((($1 + $3) / 2)) $((($2 + $4) / 2))
+    point_at "$3" "$4"
+    release_button
 }
 # drag WIDGET FROM TO, in per cent of its width.
 drag() {
@@ -148,33 +209,75 @@ drag_by() {
 
 image_size() { sed -n "1s/.*\"image\":{[^}]*\"$1\":\([0-9.]*\).*/\1/p" "$probe"; }
 image_middle() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height)" | awk '{ printf "%d %d", $1 + $2 / 2, $3 + $4 / 2 }'; }
-# Takes a screenshot of the picture, with the mouse outside of it.
+settled() { state settled true; }
+# apart A B: two regions, each as "x y width height", share no pixel.
+apart() { echo "$1 $2" | awk '{ exit !($1 >= $5 + $7 || $5 >= $1 + $3 || $2 >= $6 + $8 || $6 >= $2 + $4) }'; }
+region_of() { echo "$(field "$1" x) $(field "$1" y) $(field "$1" width) $(field "$1" height)"; }
+picture() { echo "$(number 1 x) $(number 1 y) $(image_size width) $(image_size height)"; }
+no_message_over_the_picture() {
+    local name
+    for name in $(grep -o '"Card/[^"]*"' "$probe" | tr -d '"'); do apart "$(region_of "$name")" "$(picture)" || return 1; done
+}
+# dismiss_messages: by a click on each; those with a button stay for a minute.
+dismiss_messages() {
+    dismissed() {
+        ! has_widget Card/0 || { point_at $(middle Card/0 3) && click_here && ! has_widget Card/0; }
+    }
+    until_true 30 dismissed || fail "a click does not dismiss a message: $(widget Card/0)"
+}
+# Takes a screenshot of the picture, with the mouse outside of it and without messages over it.
 take_picture() {
-    xdotool mousemove $rest
-    sleep 0.7
+    point_at $rest
+    until_true 90 no_message_over_the_picture || fail "a message stays over the picture: $(grep '"Card/' "$probe")"
+    until_true 60 settled || fail "the window never settles"
     local x y w h
     x=$(number 1 x) y=$(number 1 y) w=$(image_size width) h=$(image_size height)
     import -window root -crop "${w%.*}x${h%.*}+${x%.*}+${y%.*}" +repage "$1" || fail "no screenshot"
 }
+# at_rest WIDGET: it stays where it is.
+at_rest() {
+    local before
+    before=$(widget "$1")
+    sleep 0.2
+    [ -n "$before" ] && [ "$(widget "$1")" = "$before" ]
+}
+# take_last PICTURE: when the picture does not change any more, for changes that are no edits of the image.
+take_last() {
+    stays() { mv "$1" earlier.png && sleep 0.5 && take_picture "$1" && [ "$(differing earlier.png "$1")" = 0 ]; }
+    take_picture "$1"
+    until_true 60 stays "$1" || fail "the picture never rests"
+}
 # at U V: screen position of a point in per cent of the picture's width and height.
 at() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height) $1 $2" | awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 * $6 / 100 }'; }
-click_at() { xdotool mousemove $(at "$1" "$2") && sleep 0.3 && xdotool click 1 && sleep 0.3; }
+click_at() {
+    point_at $(at "$1" "$2")
+    click_here
+}
 # drag_over U V U V
 drag_over() { drag_from $(at "$1" "$2") $(at "$3" "$4"); }
-press() { xdotool key "$@" && sleep 0.3; }
-# As press, but held for longer than a frame on a busy machine: fields only see keys that are down at the start of a frame.
-hold() { xdotool keydown "$1" && sleep 0.2 && xdotool keyup "$1" && sleep 0.3; }
 # type_into FIELD TEXT: replaces the field's text.
-type_into() { click "$1" && hold ctrl+a && xdotool type --delay 50 "$2" && sleep 0.3 && hold Return; }
+type_into() {
+    click "$1"
+    hold ctrl+a
+    type_text "$2"
+    hold Return
+}
+# enter_path PATH: into the file browser.
+enter_path() {
+    until_true 30 has_widget "Browser/Path" || fail "no file browser opens"
+    until_true 30 typing || fail "the path in the file browser has no keyboard"
+    hold ctrl+a
+    type_text "$1"
+    hold Return
+}
 # holding KEYS... -- COMMAND...
 holding() {
     local key keys=()
     while [ "$1" != -- ]; do keys+=("$1") && shift; done
     shift
-    for key in "${keys[@]}"; do xdotool keydown "$key"; done
+    for key in "${keys[@]}"; do input 1 xdotool keydown "$key"; done
     "$@"
-    for key in "${keys[@]}"; do xdotool keyup "$key"; done
-    sleep 0.3
+    for key in "${keys[@]}"; do input 1 xdotool keyup "$key"; done
 }
 # Number of pixels in which two pictures differ.
 differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }
