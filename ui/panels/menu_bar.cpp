@@ -5,6 +5,7 @@
 #include "ui/widgets/tooltip.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <filesystem>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -45,6 +46,8 @@ void draw_demos(PanelContext& c) {
 bool begin_menu(PanelContext& c, const char* name) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(name);
     c.ui.probe.record(std::string("Menu bar/") + name, {at.x, at.y, size.x, ImGui::GetFrameHeight()});
+    // A menu that is taller than the window scrolls. The status bar stays visible.
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - 2.5f * ImGui::GetFrameHeight()});
     return ImGui::BeginMenu(name);
 }
 

@@ -381,6 +381,34 @@ TEST_F(LongNames, OpenMenus) {
     EXPECT_EQ(submenus.size(), 4u) << "recent files, demos, new lights, text size";
 }
 
+TEST_F(LongNames, MenusTallerThanTheWindowScroll) {
+    const ProbeFile probe(ui);
+    begin(1720, 960, 2);
+    draw_frames(2);
+    const auto find = [&](const std::string& name) {
+        const std::vector<Widget> widgets = probe.widgets();
+        const auto found = std::ranges::find(widgets, name, &Widget::name);
+        return found == widgets.end() ? std::optional<Widget>() : *found;
+    };
+    const std::optional<Widget> view = find("Menu bar/View");
+    ASSERT_TRUE(view);
+    click(*view, 0);
+    ASSERT_EQ(GImGui->OpenPopupStack.Size, 1);
+    const ImGuiWindow& menu = *GImGui->OpenPopupStack[0].Window;
+    EXPECT_GE(menu.Rect().Min.y, ImGui::GetFrameHeight()) << "the menu bar stays visible";
+    EXPECT_LE(menu.Rect().Max.y, 960);
+    const std::string last = std::string("Menu/") + shortcut(Command::health).name;
+    EXPECT_FALSE(find(last));
+    ImGui::GetIO().MousePos = menu.Rect().GetCenter();
+    for (int i = 0; i < 40; ++i) {
+        ImGui::GetIO().MouseWheel = -1;
+        draw_frames(1);
+    }
+    draw_frames(1);
+    ASSERT_TRUE(find(last));
+    EXPECT_LT(find(last)->y, 960);
+}
+
 // Combo boxes, context menus, colour pickers: every popup that a click on a widget opens.
 TEST_F(LongNames, EveryPopupThatAClickOpens) {
     const ProbeFile probe(ui);
