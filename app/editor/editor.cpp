@@ -442,13 +442,15 @@ void Editor::draw() {
         state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
         state.shown = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
-    window_->end_frame();
+    const bool drawn = window_->end_frame();
     state.inputs = window_->settled_inputs();
     state.settled = !window_->frames_due() && ui_.seconds_to_next_frame > 0;
     const auto now = Clock::now();
-    const FrameTimes took = pace_.end(now);
+    const FrameTimes took = pace_.end(now, drawn);
+    // Without swapping buffers, nothing else limits the rate of frames that come by themselves.
+    if (!drawn && !viewport_.draws_picture()) ui_.seconds_to_next_frame = std::max(ui_.seconds_to_next_frame, FrameBudget::unchanged_pause);
     // Loading and shader compilation before the first picture are not part of the statistics.
-    if (shown) stats_.add_frame(took, now);
+    if (shown) drawn ? stats_.add_frame(took, now) : stats_.add_unchanged_frame();
     mix_.follow(pictures_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
     if (shown) stats_.shown(mixed ? submitted_revision() : shown->revision, now);

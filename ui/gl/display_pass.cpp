@@ -198,7 +198,9 @@ void DisplayPass::advance(double milliseconds) {
     if (!busy()) return;
     const auto begin = Clock::now();
     for (double left = milliseconds; busy() && left > 0; left = milliseconds - milliseconds_since(begin)) step(std::min(left, max_step));
-    if (!busy()) front_ = 1 - front_;
+    if (busy()) return;
+    front_ = 1 - front_;
+    textures_changed();
 }
 
 } // namespace blush

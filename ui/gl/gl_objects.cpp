@@ -44,7 +44,11 @@ Result<GlProgram> make_fill_program(const std::string& fragment_source) {
 
 void set_filter(GLuint texture, GLint filter) {
     glBindTexture(GL_TEXTURE_2D, texture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    GLint was = 0;
+    glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, &was);
+    if (was == filter) return;
+    for (const GLenum which : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) glTexParameteri(GL_TEXTURE_2D, which, filter);
+    textures_changed();
 }
 
 void RenderTarget::begin(int width, int height) {

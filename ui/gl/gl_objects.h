@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "ui/gl/redraw.h"
 
 #include <epoxy/gl.h>
 #include <string>
@@ -31,6 +32,7 @@ private:
 
 struct GlTextureKind {
     static GLuint create() {
+        textures_changed(); // the name may be that of a deleted texture
         GLuint name = 0;
         glGenTextures(1, &name);
         return name;
@@ -67,7 +69,8 @@ using GlProgram = GlObject<GlProgramKind>;
 // first row of the target, its output `out vec4 result`. Errors contain the compiler's log.
 Result<GlProgram> make_fill_program(const std::string& fragment_source);
 
-// Magnification filter for a 2D texture: GL_LINEAR or GL_NEAREST.
+// Filter for a 2D texture, smaller and larger than on the screen: GL_LINEAR or GL_NEAREST. With the same for both, no level of
+// detail has to be computed.
 void set_filter(GLuint texture, GLint filter);
 
 // A texture used as render target and for display, resized on demand.

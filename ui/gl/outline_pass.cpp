@@ -87,6 +87,7 @@ void OutlinePass::draw(int width, int height, float thickness) {
     if (edges_.empty() || (thickness == thickness_ && width == target_.width() && height == target_.height())) return;
     thickness_ = thickness;
     target_.begin(width, height);
+    textures_changed();
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
     glUseProgram(program_.name());

@@ -299,7 +299,11 @@ void Viewport::draw_texture(const ImageRect& image, const std::optional<ImageRec
 
 void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    set_filter(display_.texture(), c.ui.zoom.scale >= 1 && shown_frame_->divider == 1 && !shows_preview_ ? GL_NEAREST : GL_LINEAR);
+    // Pixel by pixel, the nearest pixel is what the linear filter gives, and costs less.
+    const bool one_to_one = image.width == float(shown_frame_->width) && image.height == float(shown_frame_->height) &&
+                            image.x == std::floor(image.x) && image.y == std::floor(image.y);
+    const bool sharp = one_to_one || (c.ui.zoom.scale >= 1 && shown_frame_->divider == 1);
+    set_filter(display_.texture(), sharp && !shows_preview_ ? GL_NEAREST : GL_LINEAR);
     // opaque: blending would only cost time
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     draw_texture(image, frame);

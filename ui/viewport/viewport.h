@@ -35,6 +35,8 @@ public:
     const Gains& shown_gains() const { return shown_gains_; }
     // True if the pictures are displayed with these gains.
     bool shows(const PictureMix& mix) const { return shown_frame_ && !is_drawing(state_) && look_.mix == mix; }
+    // True while a picture is drawn, over several UI frames if it is large.
+    bool draws_picture() const { return display_.busy(); }
     // True if it temporarily shows a lower resolution, while a light mix is edited.
     bool is_thinned() const { return is_preview(state_) || shows_preview_; }
 

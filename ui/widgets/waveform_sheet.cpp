@@ -14,6 +14,7 @@ void upload(GlTexture& texture, const Waveform& waveform) {
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, waveform.columns, waveform.levels, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  waveform_texels(waveform).data());
+    textures_changed();
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }

@@ -12,6 +12,8 @@ class FrameBudget {
 public:
     using Clock = std::chrono::steady_clock;
     using TimePoint = Clock::time_point;
+    // Seconds to the next frame after one that is not drawn, unless there is input.
+    static constexpr double unchanged_pause = 1.0 / 120;
 
     void begin(TimePoint now) { begin_ = picture_begun_ = picture_done_ = now; }
     void begin_picture(TimePoint now) { picture_begun_ = picture_done_ = now; }
@@ -19,9 +21,10 @@ public:
     // recently; always more than 0.
     double left(double whole, TimePoint now) const { return std::max(least, whole - since(begin_, now) - after_picture_); }
     void end_picture(TimePoint now) { picture_done_ = now; }
-    FrameTimes end(TimePoint now) {
+    // `drawn`: false if the window showed the frame already.
+    FrameTimes end(TimePoint now, bool drawn) {
         const FrameTimes times{since(begin_, picture_begun_), since(picture_begun_, picture_done_), since(picture_done_, now)};
-        after_picture_ = std::max(times.after_picture, forgetting * after_picture_);
+        if (drawn) after_picture_ = std::max(times.after_picture, forgetting * after_picture_);
         return times;
     }
 

@@ -31,8 +31,10 @@ void FrameStats::shown(uint64_t revision, Clock::time_point when) {
     while (!unanswered_.empty() && unanswered_.front().revision <= revision) {
         const Submit submit = unanswered_.front();
         unanswered_.pop_front();
+        const double waited = std::chrono::duration<double, std::milli>(when - submit.when).count();
+        keep(answers_, waited);
         if (submit.revision != revision) continue;
-        keep(latencies_, std::chrono::duration<double, std::milli>(when - submit.when).count());
+        keep(latencies_, waited);
         at_once_ += revision == submitted_in_frame_;
     }
 }
@@ -50,6 +52,7 @@ Result<void> FrameStats::write(const std::filesystem::path& file) const {
                                {"picture_ms", times.picture},
                                {"after_picture_ms", times.after_picture}});
     const nlohmann::json json{{"frames", frames_.size()},
+                              {"unchanged_frames", unchanged_},
                               {"p50_ms", percentile(frames_, 0.5)},
                               {"p95_ms", percentile(frames_, 0.95)},
                               {"max_ms", percentile(frames_, 1)},
@@ -60,6 +63,10 @@ Result<void> FrameStats::write(const std::filesystem::path& file) const {
                               {"latency_p50_ms", percentile(latencies_, 0.5)},
                               {"latency_p95_ms", percentile(latencies_, 0.95)},
                               {"latency_max_ms", percentile(latencies_, 1)},
+                              {"submissions", answers_.size()},
+                              {"answer_p50_ms", percentile(answers_, 0.5)},
+                              {"answer_p95_ms", percentile(answers_, 0.95)},
+                              {"answer_max_ms", percentile(answers_, 1)},
                               {"looks", looks_.size()},
                               {"look_p50_ms", percentile(looks_, 0.5)},
                               {"look_max_ms", percentile(looks_, 1)}};

@@ -29,8 +29,11 @@ public:
 
     // A frame that was displayed at `when`.
     void add_frame(const FrameTimes& times, Clock::time_point when);
+    // A frame that was not drawn, because the window showed it already.
+    void add_unchanged_frame() { ++unchanged_; }
     // submitted: a revision was submitted in the frame that began at this time. shown: a picture of some revision was displayed.
-    // A picture answers all revisions up to its own; the latency counts from the submission of its own revision.
+    // A picture answers all revisions up to its own. A latency counts from the submission of the picture's own revision, a time to
+    // an answer from every submission: revisions that are superseded before they have a picture have no latency.
     void submitted(uint64_t revision, Clock::time_point when);
     void shown(uint64_t revision, Clock::time_point when);
     void end_frame() { submitted_in_frame_ = 0; }
@@ -41,10 +44,12 @@ public:
 
     const std::vector<double>& frames() const { return frames_; }
     const std::vector<double>& latencies() const { return latencies_; }
+    const std::vector<double>& answers() const { return answers_; }
     const std::vector<double>& looks() const { return looks_; }
-    // {"frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms", "picture_ms",
-    // "after_picture_ms"}, ...],
+    // {"frames": n, "unchanged_frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms",
+    // "picture_ms", "after_picture_ms"}, ...],
     //  "edits": n, "edits_at_once": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
+    //  "submissions": n, "answer_p50_ms", "answer_p95_ms", "answer_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}
     Result<void> write(const std::filesystem::path& file) const;
 
@@ -57,7 +62,7 @@ private:
     static void keep(std::vector<double>& values, double value) {
         if (values.size() < (1u << 20)) values.push_back(value);
     }
-    std::vector<double> frames_, latencies_, looks_;
+    std::vector<double> frames_, latencies_, answers_, looks_;
     struct Late {
         Clock::time_point when;
         FrameTimes times;
@@ -67,7 +72,7 @@ private:
     std::optional<Clock::time_point> view_change_begun_;
     std::deque<Submit> unanswered_;
     uint64_t submitted_in_frame_ = 0; // 0: none
-    size_t at_once_ = 0;
+    size_t at_once_ = 0, unchanged_ = 0;
 };
 
 } // namespace blush

@@ -69,6 +69,9 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    // Nothing here tests depths. Without these buffers a software rasterizer drops what an opaque picture covers.
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_MAXIMIZED, options.maximized);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "blush");
     std::unique_ptr<Window> window(new Window);
@@ -122,13 +125,13 @@ void Window::install_callbacks() {
     });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { owner(w).request_frames(frames_after_input); });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { owner(w).request_frames(frames_after_input); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { owner(w).must_draw(frames_after_input); });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float x, float y) {
         if (owner(w).scale_is_given_) return;
         owner(w).display_scale_ = usable_scale(std::max(x, y)); // set_text_size() does the rest
         owner(w).request_frames(frames_after_input);
     });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { owner(w).must_draw(1); });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { owner(w).request_frames(1); });
 }
 
@@ -157,7 +160,7 @@ void Window::set_text_size(int per_cent) {
     apply_scale();
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
-    request_frames(frames_after_input);
+    must_draw(frames_after_input);
 }
 
 bool Window::wait(double timeout_seconds) {
@@ -174,6 +177,11 @@ void Window::request_frames(int count) { frames_due_ = std::max(frames_due_, cou
 void Window::take_input(bool counts) {
     inputs_ += counts;
     request_frames(frames_after_input);
+}
+
+void Window::must_draw(int frames) {
+    redraw_.force();
+    request_frames(frames);
 }
 
 void Window::wake() {
@@ -212,11 +220,12 @@ void Window::begin_frame() {
     ImGui::NewFrame();
 }
 
-void Window::end_frame() {
+bool Window::end_frame() {
     ImGui::Render();
     ImDrawData& drawn = *ImGui::GetDrawData();
     if (needs_another_frame()) request_frames(1);
     if (frames_due_ == 0) settled_inputs_ = inputs_;
+    if (!redraw_.is_needed(drawn)) return false;
     reduce_overdraw(drawn);
     // The size at the start of the frame: another query would wait for the display server.
     glViewport(0, 0, GLsizei(drawn.DisplaySize.x * drawn.FramebufferScale.x), GLsizei(drawn.DisplaySize.y * drawn.FramebufferScale.y));
@@ -225,6 +234,7 @@ void Window::end_frame() {
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(&drawn);
     glfwSwapBuffers(window_);
+    return true;
 }
 
 bool Window::close_requested() const { return glfwWindowShouldClose(window_); }

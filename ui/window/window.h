@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "ui/gl/redraw.h"
 #include "ui/window/shortcuts.h"
 
 #include <cstdint>
@@ -46,8 +47,8 @@ public:
     // jump, beyond the window, so that a drag has no end. No effect where programs must not move the cursor (Wayland).
     void wrap_cursor(bool on);
     void begin_frame();
-    // Renders ImGui's draw data over a cleared window and swaps the buffers.
-    void end_frame();
+    // Renders ImGui's draw data over a cleared window and swaps the buffers. False without doing so if the window shows that already.
+    bool end_frame();
 
     bool frames_due() const { return frames_due_ > 0; }
     // Number of presses and releases of keys and mouse buttons and turns of the wheel, as of the last frame after which no frame was
@@ -79,6 +80,8 @@ private:
     void apply_scale();
     void unwrap_mouse();
     void take_input(bool counts);
+    // As request_frames(), and the first of them is drawn even if it looks like the last one.
+    void must_draw(int frames);
 
     GLFWwindow* window_ = nullptr;
     bool imgui_ = false;
@@ -91,6 +94,7 @@ private:
     double unwrapped_x_ = 0, unwrapped_y_ = 0; // from the cursor to ImGui's mouse position
     int frames_due_ = 3;
     uint64_t inputs_ = 0, settled_inputs_ = 0;
+    Redraw redraw_;
     std::vector<KeyPress> key_presses_;
     std::vector<std::filesystem::path> dropped_files_;
 };

@@ -125,7 +125,7 @@ hold() {
 }
 # move_by DX DY: from where the mouse is.
 move_by() { point_at $(($(number 1 mouse_x) + $1)) $(($(number 1 mouse_y) + $2)); }
-typing() { state typing true; }
+typing() { state typing true; } # a text field has the keyboard
 # double_click WIDGET: begins typing into a field.
 double_click() {
     started() { typing || { input 4 xdotool click --repeat 2 --delay 60 1 && typing; }; } # between two late frames, clicks are lost

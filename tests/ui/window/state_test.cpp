@@ -118,7 +118,7 @@ TEST(FrameBudget, PictureGetsTheRemainingTime) {
     EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "the rest of the frame is not measured yet";
     pace.begin_picture(start + 3ms);
     pace.end_picture(start + 5ms);
-    const FrameTimes times = pace.end(start + 17ms);
+    const FrameTimes times = pace.end(start + 17ms, true);
     EXPECT_NEAR(times.before_picture, 3, 1e-9);
     EXPECT_NEAR(times.picture, 2, 1e-9);
     EXPECT_NEAR(times.after_picture, 12, 1e-9);
@@ -127,7 +127,12 @@ TEST(FrameBudget, PictureGetsTheRemainingTime) {
     EXPECT_GT(pace.left(20, start + 130ms), 0) << "a late frame still draws its picture";
     pace.begin_picture(start + 101ms);
     pace.end_picture(start + 102ms);
-    pace.end(start + 103ms);
+    pace.end(start + 102ms, false);
+    pace.begin(start + 110ms);
+    EXPECT_NEAR(pace.left(20, start + 111ms), 7, 1e-9) << "a frame that is not drawn says nothing about drawing";
+    pace.begin_picture(start + 111ms);
+    pace.end_picture(start + 112ms);
+    pace.end(start + 113ms, true);
     pace.begin(start + 200ms);
     const double later = pace.left(20, start + 200ms);
     EXPECT_GT(later, 8) << "one slow frame is forgotten";
@@ -159,12 +164,14 @@ TEST(FrameStats, ListsLateFramesWithTheirTimes) {
     stats.add_frame({5, 6, 7}, start + 20ms);
     stats.add_frame({10, 20, 9}, start + 520ms);
     stats.add_frame({1, 30, 3}, start + 600ms);
+    stats.add_unchanged_frame();
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats.json";
     ASSERT_TRUE(stats.write(file));
     std::ifstream in(file);
     const auto json = nlohmann::json::parse(in);
     std::filesystem::remove(file);
     EXPECT_EQ(json["frames"], 3);
+    EXPECT_EQ(json["unchanged_frames"], 1);
     EXPECT_EQ(json["late"], 2);
     EXPECT_EQ(json["max_ms"], 39.0);
     ASSERT_EQ(json["late_frames"].size(), 2u);
@@ -197,6 +204,10 @@ TEST(FrameStats, PictureAnswersItsSubmitAndClearsOlderOnes) {
     ASSERT_EQ(stats.latencies().size(), 2u);
     EXPECT_NEAR(stats.latencies()[0], 30, 1e-9);
     EXPECT_NEAR(stats.latencies()[1], 80, 1e-9);
+    ASSERT_EQ(stats.answers().size(), 3u) << "the superseded one is answered as well";
+    EXPECT_NEAR(stats.answers()[0], 40, 1e-9);
+    EXPECT_NEAR(stats.answers()[1], 30, 1e-9);
+    EXPECT_NEAR(stats.answers()[2], 80, 1e-9);
 }
 
 TEST(BackgroundJob, ReturnsItsResultOnceAndWakes) {

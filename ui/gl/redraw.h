@@ -1,0 +1,28 @@
+// Says whether a UI frame looks different from the one on the screen. Most of a frame's time is drawing and swapping, which a frame
+// without a difference saves: while a picture is drawn over several UI frames, after input that changes nothing, or while ImGui
+// settles.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+struct ImDrawData;
+
+namespace blush {
+
+// Call after changing what a texture shows under the same name, or its filter: draw data refers to textures by name.
+void textures_changed();
+
+class Redraw {
+public:
+    // True if `data`, or the content of any texture, differs from the last call. `data` is ImGui's draw data after Render().
+    bool is_needed(const ImDrawData& data);
+    // The next frame is needed: the window system has lost what was drawn.
+    void force() { drawn_.clear(); }
+
+private:
+    std::vector<std::byte> drawn_, coming_;
+    size_t texture_changes_ = 0; // as of the last call
+};
+
+} // namespace blush
