@@ -99,7 +99,7 @@ void draw_paths(Fields& f, RenderSettings& r) {
                  "How direct light is sampled: light sampling (NEE), BSDF sampling, or both combined by multiple importance "
                  "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
-    f.checkbox("MIS compensation", r.mis_compensation,
+    f.checkbox("Compensate MIS", r.mis_compensation,
                "Light sampling leaves the even part of an environment to BSDF sampling, which finds it with less noise. Only with MIS. "
                "Unbiased; the noise differs.");
     if (f.choice("Pixel filter", filter, filters, "Reconstruction filter: Blackman-Harris, 1.5 pixels wide, or a box of one pixel."))

@@ -26,14 +26,14 @@ void draw_surface(Fields& f, Material& m) {
              unit_interval(1, "Strength of the specular reflection of a dielectric. 0 is purely diffuse, like chalk."));
     f.color("Specular tint", m.specular_color, {1, 1, 1},
             "Colour of a dielectric's specular reflection at normal incidence. White for nearly all real materials.");
-    f.number(
-        "Index of refraction", m.ior,
-        {.min = 1,
-         .max = 4,
-         .reset = 1.5f,
-         .step = 0.002f,
-         .tip = "Ratio of the speed of light in vacuum to that in the material: water 1.33, glass 1.5, diamond 2.42. It sets the strength "
-                "of reflection and refraction."});
+    f.number("IOR", m.ior,
+             {.min = 1,
+              .max = 4,
+              .reset = 1.5f,
+              .step = 0.002f,
+              .tip = "Index of refraction: ratio of the speed of light in vacuum to that in the material: water 1.33, glass 1.5, diamond "
+                     "2.42. It sets the strength of "
+                     "reflection and refraction."});
     f.checkbox("Double-sided", m.double_sided, "Emit from the back as well. Reflection is always double-sided.");
     f.checkbox("Unlit", m.unlit, "Show the base colour without lighting.");
 }
