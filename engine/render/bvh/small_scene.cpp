@@ -1,7 +1,6 @@
 #include "render/bvh/small_scene.h"
 
 #include "core/math.h"
-#include "render/bvh/accel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,13 @@
 // Closed scenes of a few triangles, which are traced faster by testing all of them than by a BVH (brute_force.h).
 #pragma once
 
-#include "core/vec.h"
+#include "render/bvh/accel_scene.h"
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace blush {
-
-struct AccelScene;
 
 struct SmallScene {
     struct Triangle {
