@@ -15,13 +15,17 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<BenchScene> scenes;
-    unsigned threads = 2;         // the largest number that is measured
-    int rounds = 9;               // of each interleaved comparison; medians are reported
-    int edits = 40;               // of each kind
-    int reference_samples = 4096; // of the reference images for errors
-    std::filesystem::path cache;  // folder that caches reference images; empty: no cache
-    std::string variant;          // the only variant of path reuse and adaptive sampling to run; empty: all
-    int64_t most_samples = 64;    // per pixel, maximum of a series
+    unsigned threads = 2;               // the largest number that is measured
+    int rounds = 9;                     // of each interleaved comparison; medians are reported
+    int edits = 40;                     // of each kind
+    int reference_samples = 4096;       // of the reference images for errors
+    std::filesystem::path cache;        // folder that caches reference images; empty: no cache
+    std::string variant;                // the only variant of path reuse and adaptive sampling to run; empty: all
+    int64_t most_samples = 64;          // per pixel, maximum of a series
+    double longest_seconds = 10;        // after an edit
+    std::string only;                   // part of the names of the scenes to measure
+    std::filesystem::path scene_folder; // of the peer comparison; empty: not given
+    bool quick = false;                 // for testing the benchmark, not for figures
 };
 
 Json run_rate(const Options& options);
@@ -40,6 +44,7 @@ Json run_mix(const Options& options);
 Json run_textures(const Options& options);
 Json run_time_slider(const Options& options);
 Json run_shown_pictures(const Options& options);
+Json run_quality(const Options& options);
 
 using Clock = std::chrono::steady_clock;
 inline double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -49,6 +54,9 @@ struct Cost {
     double wall_seconds = 0, core_seconds = 0;
 };
 Cost cost_of(const std::function<void()>& work);
+
+// Folder with the weights of the denoiser: $BLUSH_WEIGHTS, or that of the build tree.
+std::filesystem::path weights_folder();
 
 // The smallest value that at least the share `p` of all values does not exceed (nearest rank); `values` must not be empty.
 double quantile(std::vector<double> values, double p);

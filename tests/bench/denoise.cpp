@@ -31,11 +31,6 @@ constexpr Case speed_cases[]{
     {"rt_hdr_alb_nrm_small", DenoiseQuality::fast, Element::bfloat16},
 };
 
-std::filesystem::path weights_folder() {
-    const char* set = std::getenv("BLUSH_WEIGHTS");
-    return set && *set ? set : BLUSH_BUILT_WEIGHTS;
-}
-
 DenoiseInput input_of(const Frame& frame) {
     const auto floats = [](const std::vector<Vec3>& v) { return std::span(&v[0].x, v.size() * 3); };
     return {frame.width, frame.height, {frame.rgba, 4}, {floats(frame.albedo), 3}, {floats(frame.normal), 3}};

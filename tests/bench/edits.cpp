@@ -81,11 +81,25 @@ std::function<void(Scene&, int)> object_edit(const Scene& scene) {
     };
 }
 
+// An even environment looks the same when it is turned.
+std::function<void(Scene&, int)> environment_edit(const Scene& scene) {
+    if (scene.environment.kind == Environment::Kind::none) return {};
+    return [environment = scene.environment](Scene& s, int step) {
+        if (environment.kind == Environment::Kind::constant)
+            s.environment.intensity = environment.intensity * grown(step);
+        else
+            s.environment.rotation_degrees = environment.rotation_degrees + float(step);
+    };
+}
+
 } // namespace
 
 std::vector<EditKind> edits_of(const Scene& scene) {
-    std::vector<EditKind> kinds{
-        {"light", light_edit(scene)}, {"material", material_edit(scene)}, {"camera", camera_edit(scene)}, {"object", object_edit(scene)}};
+    std::vector<EditKind> kinds{{"light", light_edit(scene)},
+                                {"material", material_edit(scene)},
+                                {"camera", camera_edit(scene)},
+                                {"object", object_edit(scene)},
+                                {"environment", environment_edit(scene)}};
     std::erase_if(kinds, [](const EditKind& kind) { return !kind.apply; });
     return kinds;
 }

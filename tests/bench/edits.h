@@ -10,7 +10,7 @@
 namespace blush::bench {
 
 struct EditKind {
-    std::string name;                                  // "light", "material", "camera", "object"
+    std::string name;                                  // "light", "material", "camera", "object", "environment"
     std::function<void(Scene& scene, int step)> apply; // each step gives a different scene
 };
 

@@ -27,4 +27,9 @@ double median(std::vector<double> values) { return quantile(std::move(values), 0
 
 double rounded(double value) { return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr); }
 
+std::filesystem::path weights_folder() {
+    const char* set = std::getenv("BLUSH_WEIGHTS");
+    return set && *set ? set : BLUSH_BUILT_WEIGHTS;
+}
+
 } // namespace blush::bench

@@ -119,11 +119,6 @@ void render_series(const BenchScene& scene, const Variant& variant, uint32_t see
     seconds.push_back(spent);
 }
 
-std::filesystem::path weights_folder() {
-    const char* set = std::getenv("BLUSH_WEIGHTS");
-    return set && *set ? set : BLUSH_BUILT_WEIGHTS;
-}
-
 } // namespace
 
 Json run_shown_pictures(const Options& options) {

@@ -2,6 +2,10 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/markdown.h"
+#include "tests/bench/quality/quality_plot.h"
+
+#include "core/files.h"
+#include "measure/plot/plot_svg.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -35,6 +39,7 @@ constexpr Case cases[]{
     {{"textures", "Loading 64 textures; cost and benefit of filtering"}, run_textures},
     {{"time", "Time from a step of the time slider to the first image"}, run_time_slider},
     {{"pictures", "FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling"}, run_shown_pictures},
+    {{"quality", "FLIP and relMSE of what is on the screen at times after an edit, raw and denoised"}, run_quality},
 };
 
 std::vector<ReportedCase> reported_cases() { return {std::begin(cases), std::end(cases)}; }
@@ -56,18 +61,41 @@ int fail(const Error& error) {
     return 1;
 }
 
+// Runs the cases of these names, or all.
+Result<Json> measured(Options& options, const std::vector<std::string>& names) {
+    const std::filesystem::path& folder = options.scene_folder;
+    for (const auto& found : {shipped_scenes(), folder.empty() ? std::vector<BenchScene>{} : peer_scenes(folder)}) {
+        if (!found) return found.error();
+        for (const BenchScene& scene : *found)
+            if (scene.name().find(options.only) != std::string::npos) options.scenes.push_back(scene);
+    }
+    Json report{{"machine", describe_machine()}, {"quick", options.quick}};
+    for (const Case& c : cases) {
+        if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) continue;
+        fmt::print(stderr, "{} ...\n", c.name);
+        report[c.name] = c.run(options);
+    }
+    return report;
+}
+
+Result<Json> report_of(const std::filesystem::path& file) {
+    const auto bytes = read_file(file, uint64_t(1) << 28);
+    if (!bytes) return bytes.error();
+    return Json::parse(bytes->begin(), bytes->end());
+}
+
 int run(int argc, char** argv) {
     Options options;
     options.threads = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::string> names;
-    std::string peers, only;
-    bool quick = false;
+    std::filesystem::path earlier, plot;
     bool markdown = false;
     CLI::App app{help()};
     app.add_option("cases", names, "What to measure; default: everything")->check(CLI::IsMember(case_names()));
     app.add_flag("--markdown", markdown, "Print tables instead of JSON");
-    app.add_option("--scenes", peers, "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
-    app.add_option("--only", only, "Scenes whose file name contains this");
+    app.add_option("--scenes", options.scene_folder,
+                   "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
+    app.add_option("--only", options.only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")
         ->check(CLI::Range(1, 1000))
@@ -77,30 +105,29 @@ int run(int argc, char** argv) {
                    "The only variant of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\"");
     app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of pictures that errors are measured against")
         ->capture_default_str();
-    app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the case \"pictures\"");
-    app.add_flag("--quick", quick, "Few rounds: for testing the benchmark, not for figures");
+    app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the cases \"pictures\" and \"quality\"");
+    app.add_option("--longest", options.longest_seconds, "Seconds after an edit up to which the case \"quality\" measures")
+        ->capture_default_str();
+    app.add_option("--plot", plot, "SVG file for the chart of the case \"quality\"");
+    app.add_option("--from", earlier, "JSON of an earlier run, to print or plot instead of measuring");
+    app.add_flag("--quick", options.quick, "Few rounds: for testing the benchmark, not for figures");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) { return app.exit(e) == 0 ? 0 : 2; }
-    if (quick) {
+    if (options.quick) {
         options.rounds = 2;
         options.edits = 5;
         options.reference_samples = 512;
+        options.longest_seconds = 1;
     }
 
-    for (const auto& found : {shipped_scenes(), peers.empty() ? std::vector<BenchScene>{} : peer_scenes(peers)}) {
-        if (!found) return fail(found.error());
-        for (const BenchScene& scene : *found)
-            if (scene.name().find(only) != std::string::npos) options.scenes.push_back(scene);
+    const Result<Json> report = earlier.empty() ? measured(options, names) : report_of(earlier);
+    if (!report) return fail(report.error());
+    if (!plot.empty()) {
+        if (!report->contains("quality")) return fail({.what = "a plot needs the case \"quality\""});
+        if (const auto written = write_file(plot, to_svg(quality_plot(report->at("quality")))); !written) return fail(written.error());
     }
-
-    Json report{{"machine", describe_machine()}, {"quick", quick}};
-    for (const Case& c : cases) {
-        if (!names.empty() && std::find(names.begin(), names.end(), c.name) == names.end()) continue;
-        fmt::print(stderr, "{} ...\n", c.name);
-        report[c.name] = c.run(options);
-    }
-    fmt::print("{}\n", markdown ? to_markdown(report, reported_cases()) : report.dump(2));
+    fmt::print("{}\n", markdown ? to_markdown(*report, reported_cases()) : report->dump(2));
     return 0;
 }
 

@@ -1,0 +1,167 @@
+// Time to quality after an edit: FLIP and relMSE of what is on the screen against the converged picture of the edited scene, at fixed
+// times after the edit, raw and denoised.
+#include "tests/bench/bench.h"
+#include "tests/bench/edits.h"
+#include "tests/bench/quality/quality_scenes.h"
+#include "tests/bench/quality/screen.h"
+#include "tests/bench/quality/shown_error.h"
+
+#include "app/commands/converge/reference_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+namespace blush::bench {
+namespace {
+
+constexpr int edit_step = 50;        // an edit that is plain to see: light times 1.5, camera by a twentieth of the distance
+constexpr double refined_before = 1; // seconds between the picture of the scene before the edit and the edit
+
+constexpr const char* kinds[]{"light", "material", "camera", "object", "environment"};
+constexpr const char* pictures[]{"raw", "denoised"};
+
+template <class T> T checked(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return *std::move(result);
+}
+
+std::vector<double> deadlines_of(const Options& options) {
+    std::vector<double> deadlines{0.033, 0.1, 0.3, 1, 3, 10};
+    std::erase_if(deadlines, [&](double d) { return d > options.longest_seconds; });
+    return deadlines;
+}
+
+RenderSettings settings_of(const Options& options) {
+    RenderSettings settings = window_settings();
+    if (options.quick) settings.width = 320, settings.height = 180;
+    return settings;
+}
+
+// The converged picture; samples in the cache are kept and added to.
+Reference reference_of(const Scene& scene, const Options& options) {
+    const RenderSettings settings = settings_of(options);
+    const std::vector<uint32_t> compared = [&] {
+        std::vector<uint32_t> seeds;
+        for (int round = 0; round < options.rounds; ++round) seeds.push_back(uint32_t(round));
+        return seeds;
+    }();
+    const std::string key = reference_key(scene, settings);
+    std::optional<Reference> cached = cached_reference(options.cache, key, compared);
+    Reference reference = cached ? std::move(*cached) : Reference();
+    if (!cached) reference.seed = reference_seed(compared);
+    const int64_t before = reference.measured.samples;
+    Renderer renderer({.threads = options.threads, .planes = {}});
+    extend_reference(
+        reference, renderer, scene, settings, {.samples = options.reference_samples}, [] { return true; }, [](double) {});
+    if (reference.measured.samples > before)
+        if (const auto written = cache_reference(options.cache, key, reference); !written)
+            fmt::print(stderr, "{}\n", written.error().text());
+    return reference;
+}
+
+// What was measured at one time after an edit, over the rounds.
+struct AtDeadline {
+    std::vector<double> flip, relmse, divider, samples;
+};
+struct Curve {
+    std::vector<double> first_ms; // of rounds that showed a picture of the edited scene
+    std::vector<AtDeadline> at;
+};
+
+void add(Curve& curve, const AfterEdit& after, const ErrorMeter& meter, bool denoised) {
+    if (after.first_ms > 0) curve.first_ms.push_back(after.first_ms);
+    curve.at.resize(after.pictures.size());
+    ShownError error;
+    for (size_t i = 0; i < after.pictures.size(); ++i) {
+        const Pictures& now = after.pictures[i];
+        if (i == 0 || now.frame != after.pictures[i - 1].frame || now.denoised != after.pictures[i - 1].denoised)
+            error = meter.of(now, denoised);
+        AtDeadline& at = curve.at[i];
+        at.flip.push_back(error.flip);
+        at.relmse.push_back(error.relmse);
+        const bool is_new = now.frame->revision == after.revision;
+        at.divider.push_back(is_new ? double(now.frame->divider) : 0);
+        at.samples.push_back(!is_new ? 0 : denoised && now.denoised ? double(now.denoised->samples) : double(now.frame->samples));
+    }
+}
+
+Json row_of(const Curve& curve, const std::vector<double>& deadlines) {
+    Json row{{"first_image_ms", curve.first_ms.empty() ? Json() : Json(rounded(median(curve.first_ms)))}};
+    for (const double d : deadlines) row["ms"].push_back(1e3 * d);
+    for (const auto& [name, values] : {std::pair{"flip", &AtDeadline::flip},
+                                       {"relmse", &AtDeadline::relmse},
+                                       {"divider", &AtDeadline::divider},
+                                       {"samples", &AtDeadline::samples}})
+        for (const AtDeadline& at : curve.at) row[name].push_back(rounded(median(at.*values)));
+    return row;
+}
+
+Json measure(const BenchScene& scene, const ColorManagement& color, const Options& options) {
+    const std::vector<double> deadlines = deadlines_of(options);
+    std::vector<EditKind> edits = edits_of(scene.scene);
+    std::map<std::string, Scene> edited;
+    std::map<std::string, ErrorMeter> meters;
+    for (const EditKind& kind : edits) {
+        Scene& after = edited[kind.name] = scene.scene;
+        kind.apply(after, edit_step);
+        meters.emplace(kind.name, ErrorMeter(color, reference_of(after, options).measured));
+    }
+
+    std::map<std::pair<std::string, std::string>, Curve> curves; // by kind of edit and of picture
+    for (int round = 0; round < options.rounds; ++round)
+        for (const std::string picture : pictures) {
+            const bool denoised = picture == "denoised";
+            Screen screen(options.threads, denoised);
+            RenderSettings settings = settings_of(options);
+            settings.seed = uint32_t(round);
+            for (const EditKind& kind : edits) {
+                if (const auto shown = screen.show(scene.scene, settings, refined_before); !shown)
+                    return Json::array({{{"scene", scene.name()}, {"failed", shown.error().text()}}});
+                const AfterEdit after = checked(screen.edit(edited[kind.name], settings, deadlines));
+                add(curves[{kind.name, picture}], after, meters.at(kind.name), denoised);
+            }
+        }
+
+    Json rows = Json::array();
+    for (const std::string kind : kinds) {
+        if (!edited.contains(kind)) {
+            rows.push_back({{"scene", scene.name()}, {"edit", kind}, {"skipped", "the scene has none"}});
+            continue;
+        }
+        for (const std::string picture : pictures) {
+            Json row{{"scene", scene.name()}, {"edit", kind}, {"picture", picture}};
+            row.update(row_of(curves[{kind, picture}], deadlines));
+            row["reference_relmse"] = rounded(meters.at(kind).reference_relmse());
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
+
+} // namespace
+
+Json run_quality(const Options& options) {
+    std::vector<BenchScene> scenes = options.scenes;
+    for (BenchScene& scene : checked(quality_scenes(options.scene_folder)))
+        if (scene.name().find(options.only) != std::string::npos) scenes.push_back(std::move(scene));
+    if (options.quick && scenes.size() > 1) scenes.resize(1);
+    const ColorManagement color = checked(ColorManagement::load(BLUSH_ASSETS));
+    const RenderSettings settings = settings_of(options);
+    Json result{{"width", settings.width},
+                {"height", settings.height},
+                {"threads", options.threads},
+                {"rounds", options.rounds},
+                {"reference_samples", options.reference_samples},
+                {"curves", Json::array()}};
+    for (const BenchScene& scene : scenes) {
+        fmt::print(stderr, "  {}\n", scene.name());
+        for (Json& row : measure(scene, color, options)) result["curves"].push_back(std::move(row));
+    }
+    return result;
+}
+
+} // namespace blush::bench

@@ -1,0 +1,39 @@
+// Error of a picture on the screen against the converged picture.
+#pragma once
+
+#include "color/color_management.h"
+#include "measure/statistics/bias_test.h"
+#include "render/session/published_frames.h"
+
+namespace blush::bench {
+
+struct ShownError {
+    double flip = 0;   // mean of LDR-FLIP of the displayed pictures
+    double relmse = 0; // of the scene-linear values, less the noise of the reference
+};
+
+// Pictures are displayed with the default view, at the exposure that maps the reference's log-average luminance to middle grey.
+class ErrorMeter {
+public:
+    // `color` must outlive it.
+    ErrorMeter(const ColorManagement& color, MeasuredImage reference);
+
+    // The raw picture, or the denoised one where there is one, as the window draws it: coarse pictures are enlarged to the size of
+    // the reference by linear interpolation of displayed values. `pictures` must have a frame.
+    ShownError of(const Pictures& pictures, bool denoised) const;
+    // Of the reference's own noise.
+    double reference_relmse() const;
+
+private:
+    RgbImage displayed(RgbImage image) const;
+
+    const ColorManagement& color_;
+    MeasuredImage reference_;
+    float exposure_ev_;
+    RgbImage displayed_reference_;
+};
+
+// Linear interpolation between the centres of pixels, as GL_LINEAR with clamped edges.
+RgbImage enlarged(const RgbImage& image, int width, int height);
+
+} // namespace blush::bench
