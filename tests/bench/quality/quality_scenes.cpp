@@ -4,6 +4,7 @@
 #include "io/gltf/read/import.h"
 #include "io/image/environment_image.h"
 #include "measure/stability/scenes.h"
+#include "scene/affine.h"
 #include "tests/bench/net.h"
 
 #include <cmath>
@@ -12,7 +13,20 @@
 namespace blush::bench {
 namespace {
 
-constexpr float view_angle = 0.7f; // vertical, radians
+// Without roll; `yfov_radians` is vertical.
+View view_of(const Vec3& from, const Vec3& to, float yfov_radians) {
+    const Vec3d direction = to_double(to - from);
+    Affined frame;
+    frame.z = -normalize(direction);
+    frame.x = normalize(cross(Vec3d{0, 1, 0}, frame.z));
+    frame.y = cross(frame.z, frame.x);
+    View view;
+    view.position = from;
+    view.rotation = to_quat(frame);
+    view.pivot_distance = float(length(direction));
+    view.lens.yfov_radians = yfov_radians;
+    return view;
+}
 
 void add_sun(Scene& scene, float lux, const Vec3& direction) {
     Light sun;
@@ -29,7 +43,7 @@ Scene million_triangles() {
     stability::constant_world(scene, 0.5f);
     scene.environment.color = {0.7f, 0.85f, 1};
     add_sun(scene, 3, {1, -1, -0.6f});
-    scene.view = stability::looking({0.4f, 0.9f, 1.6f}, {0, 0, 0}, view_angle);
+    scene.view = view_of({0.4f, 0.9f, 1.6f}, {0, 0, 0}, 0.7f);
     return scene;
 }
 
@@ -60,7 +74,7 @@ Scene generated_model() {
     Material material = stability::plastic(0.3f);
     material.base_color_texture.texture = stability::add_texture(scene, generated_texture(), Texture::Filter::linear);
     stability::place(scene, stability::cube(false), material);
-    scene.view = stability::looking({2.4f, 1.8f, 3.2f}, {0, 0, 0}, view_angle);
+    scene.view = view_of({2.4f, 1.8f, 3.2f}, {0, 0, 0}, 0.7f);
     return scene;
 }
 
@@ -109,7 +123,7 @@ Scene window_room() {
     stability::constant_world(scene, 1);
     scene.environment.color = {0.6f, 0.78f, 1};
     add_sun(scene, 15, {-1, -0.7f, 0.1f});
-    scene.view = stability::looking({-2.6f, 1.6f, 2.2f}, {0.9f, 0.9f, -1}, 0.95f);
+    scene.view = view_of({-2.6f, 1.6f, 2.2f}, {0.9f, 0.9f, -1}, 0.95f);
     return scene;
 }
 
