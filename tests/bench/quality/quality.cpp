@@ -69,6 +69,7 @@ struct AtDeadline {
 };
 struct Curve {
     std::vector<double> first_ms; // of rounds that showed a picture of the edited scene
+    std::vector<double> share;    // of the time of all threads that this process got: far below 1 if others keep the machine busy
     std::vector<AtDeadline> at;
 };
 
@@ -83,9 +84,10 @@ void add(Curve& curve, const AfterEdit& after, const ErrorMeter& meter, bool den
         AtDeadline& at = curve.at[i];
         at.flip.push_back(error.flip);
         at.relmse.push_back(error.relmse);
-        const bool is_new = now.frame->revision == after.revision;
-        at.divider.push_back(is_new ? double(now.frame->divider) : 0);
-        at.samples.push_back(!is_new ? 0 : denoised && now.denoised ? double(now.denoised->samples) : double(now.frame->samples));
+        // Of the picture that is shown; 0 of the one of before the edit.
+        const bool is_new = now.frame->revision == after.revision, shows_denoised = denoised && now.denoised;
+        at.divider.push_back(!is_new ? 0 : shows_denoised ? now.denoised->divider : now.frame->divider);
+        at.samples.push_back(double(!is_new ? 0 : shows_denoised ? now.denoised->samples : now.frame->samples));
     }
 }
 
@@ -97,6 +99,7 @@ Json row_of(const Curve& curve, const std::vector<double>& deadlines) {
                                        {"divider", &AtDeadline::divider},
                                        {"samples", &AtDeadline::samples}})
         for (const AtDeadline& at : curve.at) row[name].push_back(rounded(median(at.*values)));
+    row["share_of_cores"] = rounded(median(curve.share));
     return row;
 }
 
@@ -121,8 +124,11 @@ Json measure(const BenchScene& scene, const ColorManagement& color, const Option
             for (const EditKind& kind : edits) {
                 if (const auto shown = screen.show(scene.scene, settings, refined_before); !shown)
                     return Json::array({{{"scene", scene.name()}, {"failed", shown.error().text()}}});
-                const AfterEdit after = checked(screen.edit(edited[kind.name], settings, deadlines));
-                add(curves[{kind.name, picture}], after, meters.at(kind.name), denoised);
+                AfterEdit after;
+                const Cost cost = cost_of([&] { after = checked(screen.edit(edited[kind.name], settings, deadlines)); });
+                Curve& curve = curves[{kind.name, picture}];
+                curve.share.push_back(cost.core_seconds / (cost.wall_seconds * options.threads));
+                add(curve, after, meters.at(kind.name), denoised);
             }
         }
 
