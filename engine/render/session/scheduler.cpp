@@ -40,6 +40,14 @@ int Scheduler::first_divider() const {
     return divider;
 }
 
+// True if the film is coarse, and as many samples again take little of the time of one at full resolution.
+bool Scheduler::coarse_image_is_worth_more() const {
+    if (film_divider_ <= 1) return false;
+    if (settings_.spp > 0 && settings_.first_sample + 2 * coarse_samples_ > settings_.spp) return false;
+    const double more = double(coarse_samples_) * timings_.sample_seconds / (double(film_divider_) * double(film_divider_));
+    return seconds_ + more <= coarse_share * timings_.sample_seconds;
+}
+
 double Scheduler::publish_interval() const {
     if (seconds_ < 1) return 0.1;
     if (seconds_ < 4) return 0.25;
@@ -56,6 +64,12 @@ Work Scheduler::next() const {
         work.divider = first_divider();
         work.clear = true;
         work.always_finish = true;
+        return work;
+    }
+    if (coarse_image_is_worth_more()) {
+        work.divider = film_divider_;
+        work.first_sample += coarse_samples_;
+        work.count = coarse_samples_;
         return work;
     }
     if (film_divider_ > 1) {
@@ -92,6 +106,7 @@ void Scheduler::record_render(const Work& work, double seconds) {
     const double trust = work.divider == 1 ? 0.5 : 0.25;
     timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
     film_divider_ = work.divider;
+    coarse_samples_ = work.first_sample + work.count - settings_.first_sample;
     if (work.divider == 1) next_sample_ = work.first_sample + work.count;
 }
 

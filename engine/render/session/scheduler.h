@@ -17,7 +17,8 @@ struct Work {
     bool publish = false;       // resolve and publish a frame afterwards
 };
 
-// Similar to Cycles: a first image within a display frame, then full resolution, then batches with growing display intervals,
+// Similar to Cycles: a first image within a display frame, more samples of it while a first sample at full resolution would take much
+// longer, then full resolution, then batches with growing display intervals,
 // because resolving costs time and later updates are less urgent.
 class Scheduler {
 public:
@@ -28,6 +29,9 @@ public:
 
     // tracing time of the coarse image; cancelling, resolving and drawing need time too
     static constexpr double first_image_seconds = 1.0 / 60;
+    // Coarse images get samples until they took this share of a sample at full resolution: until that is shown, more samples in fewer
+    // pixels have the lower error.
+    static constexpr double coarse_share = 0.25;
     static constexpr int coarsest_divider = 16;
     static constexpr int min_long_side = 96; // pixels of the coarse image, unless the full one is smaller
 
@@ -58,12 +62,14 @@ public:
 
 private:
     int first_divider() const;
+    bool coarse_image_is_worth_more() const;
     double publish_interval() const;
     bool error_may_be_reached(int64_t samples) const;
 
     RenderSettings settings_;
     Timings timings_;
-    int film_divider_ = 0; // 0: nothing rendered yet
+    int film_divider_ = 0;       // 0: nothing rendered yet
+    int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
     bool interactive_ = true;
     double seconds_ = 0;      // render time of this revision

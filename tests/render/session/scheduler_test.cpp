@@ -101,15 +101,43 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
         const Machine machine{sample_seconds};
         Scheduler scheduler = experienced(machine, endless());
         std::vector<int> d;
-        for (const Work& work : machine.run(scheduler, 5)) {
+        for (const Work& work : machine.run(scheduler, 8)) {
             EXPECT_EQ(work.clear, d.empty() || work.divider != d.back()) << "clears when and only when the film changes size";
             d.push_back(work.divider);
         }
         return d;
     };
-    EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(0.2), (std::vector{4, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(0.9), (std::vector{8, 2, 1, 1, 1})) << "one intermediate step for slow scenes";
+    EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(dividers(0.1875), (std::vector{4, 4, 4, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(dividers(1), (std::vector{8, 8, 8, 8, 8, 2, 1, 1})) << "one intermediate step for slow scenes";
+}
+
+TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
+    for (const double sample_seconds : {0.05, 0.1, 0.2, 0.7, 5.0})
+        for (const int64_t spp : {0, 1, 5, 64}) {
+            RenderSettings settings = endless();
+            settings.first_sample = spp > 0 ? 3 : 0;
+            settings.spp = spp > 0 ? spp + 3 : 0;
+            const Machine machine{sample_seconds};
+            Scheduler scheduler = experienced(machine, settings);
+            const int divider = scheduler.next().divider;
+            double seconds = 0;
+            int64_t samples = 0;
+            for (Work work = scheduler.next(); work.divider == divider && divider > 1; work = scheduler.next()) {
+                EXPECT_EQ(work.first_sample, settings.first_sample + samples);
+                EXPECT_TRUE(work.publish);
+                samples += work.count;
+                seconds += machine.seconds(work);
+                machine.do_work(scheduler, work);
+            }
+            EXPECT_TRUE(spp == 0 || samples <= spp) << samples << " of " << spp;
+            // The first image is made in any case.
+            const double first = sample_seconds / (divider * divider);
+            EXPECT_LE(seconds, std::max(first, Scheduler::coarse_share * sample_seconds * (1 + 1e-9))) << sample_seconds;
+            if (spp == 0 && divider > 1) {
+                EXPECT_GT(2 * seconds, Scheduler::coarse_share * sample_seconds * (1 - 1e-9)) << sample_seconds;
+            }
+        }
 }
 
 TEST(Scheduler, SamplesOfTheFullImageAreDoneOnceAndInOrder) {
