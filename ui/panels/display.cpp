@@ -17,7 +17,8 @@ void draw_denoised_figures(Fields& f, const DenoisedPicture& picture) {
     const Denoised& d = picture.denoised;
     f.info("Network", fmt::format("{}, {}", d.network, d.precision), "The network that denoised the picture, and its numeric precision.");
     f.info("Denoise time", fmt::format("{:.0f} ms", 1000 * d.seconds),
-           "Denoising runs in parallel with rendering and takes at most a tenth of the time, except for the first and last picture.");
+           "Denoising runs in parallel with rendering and takes at most a tenth of the time, except while the samples are few, and for the "
+           "last picture.");
     f.info("Mean energy", signed_number(energy_change_percent(d), 2) + " %",
            "Change of the mean luminance by the denoiser. The estimated error is always that of the raw image.");
     if (d.sanitised > 0)

@@ -50,8 +50,9 @@ DenoiseCadence::Decision DenoiseCadence::next(double now) const {
     const double rests_at = image_begun_ + idle_seconds;
     const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
     if (is_done(quality)) return {{}, quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now};
-    const double affordable_at = image_begun_ + (spent_ + predicted(quality)) / time_share;
-    const double due_at = std::max(done_->begun + min_interval, affordable_at);
+    const auto affordable_at = [&](double share) { return image_begun_ + (spent_ + predicted(quality)) / share; };
+    const bool renews = newest_->samples >= renewal_growth * done_->samples;
+    const double due_at = renews ? affordable_at(renewal_share) : std::max(done_->begun + min_interval, affordable_at(time_share));
     if (now >= due_at) return {quality, 0};
     return {{}, due_at - now};
 }

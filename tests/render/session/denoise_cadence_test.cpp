@@ -64,7 +64,7 @@ TEST(DenoiseCadence, TheFirstFullPictureIsDenoisedAtOnceByTheSmallNetwork) {
     }
 }
 
-TEST(DenoiseCadence, AtMostOnceASecondAndATenthOfTheTime) {
+TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
     for (const double slowness : {0.01, 0.3, 1.0, 5.0}) {
         Bench bench;
         for (double& s : bench.seconds) s *= slowness;
@@ -77,10 +77,23 @@ TEST(DenoiseCadence, AtMostOnceASecondAndATenthOfTheTime) {
             spent += bench.seconds[size_t(d.quality)];
             const bool last = i + 1 == bench.done.size();
             if (i == 0 || last) continue; // those two are guaranteed at any cost
+            if (d.samples >= DenoiseCadence::renewal_growth * bench.done[i - 1].samples) {
+                EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+                continue;
+            }
             EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::min_interval - 1e-9);
             EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
         }
     }
+}
+
+TEST(DenoiseCadence, IsRenewedWhenTheSamplesHaveQuadrupled) {
+    Bench bench;
+    bench.render(1, 20);
+    ASSERT_GE(bench.done.size(), 3u);
+    EXPECT_EQ(bench.done[0].samples, 1);
+    EXPECT_EQ(bench.done[1].samples, 4);
+    EXPECT_EQ(bench.done[2].samples, 16);
 }
 
 TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
