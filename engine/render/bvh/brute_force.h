@@ -33,16 +33,14 @@ template <class F> struct ProjectedScene {
         mask = rays.masks ? load<UInt<F>>(rays.masks + k) : UInt<F>(rays.mask);
         const Basis<F> basis = basis_around(direction * (1.f / sqrt(dot(direction, direction))));
         for (size_t i = 0; i < scene.positions.size(); ++i) {
-            const Vec3& p = scene.positions[i];
-            const Vec<F> to = Vec<F>{F(p.x), F(p.y), F(p.z)} - origin;
+            const Vec<F> to = splat<F>(scene.positions[i]) - origin;
             store(x[i], dot(to, basis.s));
             store(y[i], dot(to, basis.t));
         }
         for (size_t i = 0; i < scene.planes.size(); ++i) {
             const SmallScene::Plane& plane = scene.planes[i];
-            const Vec<F> normal{F(plane.normal.x), F(plane.normal.y), F(plane.normal.z)};
-            const Vec<F> to = Vec<F>{F(plane.point.x), F(plane.point.y), F(plane.point.z)} - origin;
-            const F t = dot(normal, to) / dot(normal, direction);
+            const Vec<F> normal = splat<F>(plane.normal);
+            const F t = dot(normal, splat<F>(plane.point) - origin) / dot(normal, direction);
             store(distance[i], select(t >= F(std::numeric_limits<float>::min()), t, F(infinity))); // not if NaN
         }
     }
