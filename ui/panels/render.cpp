@@ -100,7 +100,8 @@ void draw_paths(Fields& f, RenderSettings& r) {
                  "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
     f.checkbox("Compensate MIS", r.mis_compensation,
-               "Light sampling leaves the even part of an environment to BSDF sampling, which finds it with less noise. Only with MIS. "
+               "MIS compensation (Karlik et al. 2019): light sampling leaves the even part of an environment to BSDF sampling, which finds "
+               "it with less noise. Only with MIS. "
                "Unbiased; the noise differs.");
     if (f.choice("Pixel filter", filter, filters, "Reconstruction filter: Blackman-Harris, 1.5 pixels wide, or a box of one pixel."))
         r.filter = PixelFilter(filter);
