@@ -34,9 +34,16 @@ int Scheduler::first_divider() const {
     // Without measurements, assume two million full paths per second.
     const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
     const int long_side = std::max(settings_.width, settings_.height);
+    const auto too_slow = [&](int divider, double seconds) {
+        return divider < coarsest_divider && full / (divider * divider) > seconds && long_side / (divider + 1) >= min_long_side;
+    };
+    // A series of edits keeps one resolution although timings vary: changes of it are visible as flicker.
+    const int last = last_first_divider_;
+    if (last > 0 && !too_slow(last, first_image_seconds * timing_tolerance) &&
+        (last == 1 || too_slow(last - 1, first_image_seconds / timing_tolerance)))
+        return last;
     int divider = 1;
-    while (divider < coarsest_divider && full / (divider * divider) > first_image_seconds && long_side / (2 * divider) >= min_long_side)
-        divider *= 2;
+    while (too_slow(divider, first_image_seconds)) ++divider;
     return divider;
 }
 
@@ -74,7 +81,7 @@ Work Scheduler::next() const {
     }
     if (film_divider_ > 1) {
         // Full resolution next: directly if that is fast enough, else via an intermediate one.
-        const int middle = std::max(1, film_divider_ / 4);
+        const int middle = std::max(1, (film_divider_ + 2) / 4);
         const bool direct = timings_.sample_seconds < 0.25;
         work.divider = direct ? 1 : middle;
         work.clear = true;
@@ -105,6 +112,7 @@ void Scheduler::record_render(const Work& work, double seconds) {
     // Small films have idle lanes and cold caches, so they predict full-size timings less well.
     const double trust = work.divider == 1 ? 0.5 : 0.25;
     timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
+    if (work.always_finish) last_first_divider_ = work.divider;
     film_divider_ = work.divider;
     coarse_samples_ = work.first_sample + work.count - settings_.first_sample;
     if (work.divider == 1) next_sample_ = work.first_sample + work.count;

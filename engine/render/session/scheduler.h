@@ -27,8 +27,10 @@ public:
         double sample_seconds = 0;
     };
 
-    // tracing time of the coarse image; cancelling, resolving and drawing need time too
-    static constexpr double first_image_seconds = 1.0 / 60;
+    // Tracing time of the coarse image; cancelling, resolving and drawing take the rest of a sixtieth of a second.
+    static constexpr double first_image_seconds = 1.0 / 80;
+    // Ratio of measured times that is taken for chance: within it, the first image keeps the resolution of the last one.
+    static constexpr double timing_tolerance = 1.1;
     // Coarse images get samples until they took this share of a sample at full resolution: until that is shown, more samples in fewer
     // pixels have the lower error.
     static constexpr double coarse_share = 0.25;
@@ -69,6 +71,7 @@ private:
     RenderSettings settings_;
     Timings timings_;
     int film_divider_ = 0;       // 0: nothing rendered yet
+    int last_first_divider_ = 0; // of the first image of the revision before; 0: none
     int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
     bool interactive_ = true;

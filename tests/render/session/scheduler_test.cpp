@@ -58,8 +58,23 @@ TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
         const Scheduler scheduler = experienced({sample_seconds}, endless());
         const int d = scheduler.next().divider;
         EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << sample_seconds;
-        if (d > 1) { EXPECT_GT(sample_seconds / (0.25 * d * d), Scheduler::first_image_seconds) << "a finer one would have fitted"; }
+        if (d > 1) { EXPECT_GT(sample_seconds / ((d - 1) * (d - 1)), Scheduler::first_image_seconds) << "a finer one would have fitted"; }
     }
+}
+
+TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
+    // Just at the border between 1/3 and 1/4: a sample takes 9/60 s, more or less.
+    Scheduler scheduler = experienced({9 * Scheduler::first_image_seconds}, endless());
+    const int first = scheduler.next().divider;
+    for (int edit = 0; edit < 20; ++edit) {
+        const double noise = edit % 2 == 0 ? 1.08 : 0.92;
+        Machine{9 * Scheduler::first_image_seconds * noise}.run(scheduler, 8);
+        scheduler.restart(endless(), true);
+        EXPECT_EQ(scheduler.next().divider, first) << "edit " << edit;
+    }
+    Machine{20 * Scheduler::first_image_seconds}.run(scheduler, 50);
+    scheduler.restart(endless(), true);
+    EXPECT_EQ(scheduler.next().divider, 5) << "a scene that became slower";
 }
 
 TEST(Scheduler, FirstPictureHasAMinimumSize) {
@@ -109,7 +124,7 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
     };
     EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1, 1, 1, 1}));
     EXPECT_EQ(dividers(0.1875), (std::vector{4, 4, 4, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(1), (std::vector{8, 8, 8, 8, 8, 2, 1, 1})) << "one intermediate step for slow scenes";
+    EXPECT_EQ(dividers(1), (std::vector{9, 9, 9, 9, 9, 2, 1, 1})) << "one intermediate step for slow scenes";
 }
 
 TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
