@@ -310,7 +310,9 @@ void EditorFiles::finish_map(Document& document, UiState& ui, Result<ImagePtr> i
     ui.gestures.end();
     if (!done) return ui.toasts.fail(done.error().text());
     if (!has_texture_coordinates(document.project().scene, map_.material))
-        ui.toasts.warn("The image is not visible", "No mesh with this material has texture coordinates (UV).");
+        ui.toasts.warn("The image shows as one colour",
+                       "No mesh with this material has texture coordinates (UV): all of it takes the colour at (0, 0). "
+                       "Unwrap the mesh in a modelling program.");
 }
 
 void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
