@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 namespace blush::bench {
@@ -15,17 +16,18 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<BenchScene> scenes;
-    unsigned threads = 2;               // the largest number that is measured
-    int rounds = 9;                     // of each interleaved comparison; medians are reported
-    int edits = 40;                     // of each kind
-    int reference_samples = 4096;       // of the reference images for errors
-    std::filesystem::path cache;        // folder that caches reference images; empty: no cache
-    std::string variant;                // the only variant of path reuse and adaptive sampling to run; empty: all
-    int64_t most_samples = 64;          // per pixel, maximum of a series
-    double longest_seconds = 10;        // after an edit
-    std::string only;                   // part of the names of the scenes to measure
-    std::filesystem::path scene_folder; // of the peer comparison; empty: not given
-    bool quick = false;                 // for testing the benchmark, not for figures
+    unsigned threads = 2;                             // the largest number that is measured
+    int rounds = 9;                                   // of each interleaved comparison; medians are reported
+    int edits = 40;                                   // of each kind
+    int reference_samples = 4096;                     // of the reference images for errors
+    std::filesystem::path cache;                      // folder that caches reference images; empty: no cache
+    std::string variant;                              // the only variant of path reuse and adaptive sampling to run; empty: all
+    int64_t most_samples = 64;                        // per pixel, maximum of a series
+    double longest_seconds = 10;                      // after an edit
+    std::vector<std::filesystem::path> peer_pictures; // JSON of another renderer's pictures, for the case "quality"
+    std::string only;                                 // part of the names of the scenes to measure
+    std::filesystem::path scene_folder;               // of the peer comparison; empty: not given
+    bool quick = false;                               // for testing the benchmark, not for figures
 };
 
 Json run_rate(const Options& options);
@@ -54,6 +56,12 @@ struct Cost {
     double wall_seconds = 0, core_seconds = 0;
 };
 Cost cost_of(const std::function<void()>& work);
+
+// The value. Throws std::runtime_error with the text of the error if there is none.
+template <class T> T checked(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return *std::move(result);
+}
 
 // Folder with the weights of the denoiser: $BLUSH_WEIGHTS, or that of the build tree.
 std::filesystem::path weights_folder();

@@ -108,6 +108,8 @@ int run(int argc, char** argv) {
     app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the cases \"pictures\" and \"quality\"");
     app.add_option("--longest", options.longest_seconds, "Seconds after an edit up to which the case \"quality\" measures")
         ->capture_default_str();
+    app.add_option("--peer", options.peer_pictures, "JSON of tests/bench/quality/cycles_pictures.py, for the case \"quality\"")
+        ->check(CLI::ExistingFile);
     app.add_option("--plot", plot, "SVG file for the chart of the case \"quality\"");
     app.add_option("--from", earlier, "JSON of an earlier run, to print or plot instead of measuring");
     app.add_flag("--quick", options.quick, "Few rounds: for testing the benchmark, not for figures");

@@ -2,6 +2,7 @@
 // times after the edit, raw and denoised.
 #include "tests/bench/bench.h"
 #include "tests/bench/edits.h"
+#include "tests/bench/quality/peer_pictures.h"
 #include "tests/bench/quality/quality_scenes.h"
 #include "tests/bench/quality/screen.h"
 #include "tests/bench/quality/shown_error.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <stdexcept>
 
 namespace blush::bench {
 namespace {
@@ -26,11 +26,6 @@ constexpr int most_attempts = 5;
 
 constexpr const char* kinds[]{"light", "material", "camera", "object", "environment"};
 constexpr const char* pictures[]{"raw", "denoised"};
-
-template <class T> T checked(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return *std::move(result);
-}
 
 std::vector<double> deadlines_of(const Options& options) {
     std::vector<double> deadlines{0.033, 0.1, 0.3, 1, 3, 10};
@@ -186,6 +181,7 @@ Json run_quality(const Options& options) {
         fmt::print(stderr, "  {}\n", scene.name());
         for (Json& row : measure(scene, color, options)) result["curves"].push_back(std::move(row));
     }
+    for (const std::filesystem::path& file : options.peer_pictures) result["curves"].push_back(peer_row(file, color));
     return result;
 }
 

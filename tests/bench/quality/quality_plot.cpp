@@ -35,7 +35,9 @@ Plot quality_plot(const Json& quality) {
         PlotCurve curve;
         curve.name = scene + ", " + picture;
         curve.color = plot_color(size_t(std::ranges::find(scenes, scene) - scenes.begin()));
-        curve.line = picture == "raw" ? PlotCurve::Line::dashed : PlotCurve::Line::solid;
+        curve.line = picture == "raw"        ? PlotCurve::Line::dashed
+                     : picture == "denoised" ? PlotCurve::Line::solid
+                                             : PlotCurve::Line::dotted; // of a peer
         for (const auto& [ms, sum] : at) curve.points.push_back({ms, sum.flip / sum.edits});
         plot.curves.push_back(std::move(curve));
     }

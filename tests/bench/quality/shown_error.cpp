@@ -60,6 +60,10 @@ ShownError ErrorMeter::of(const Pictures& pictures, bool denoised) const {
     RgbImage shown{frame.width, frame.height, {}};
     for (size_t i = 0; i < rgb.size(); i += 3) shown.pixels.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
 
+    return of(shown);
+}
+
+ShownError ErrorMeter::of(const RgbImage& shown) const {
     const int width = reference_.image.width, height = reference_.image.height;
     const auto compared = compare(enlarged(displayed(shown), width, height), displayed_reference_, Encoding::display);
     if (!compared) throw std::runtime_error(compared.error().text());

@@ -21,6 +21,8 @@ public:
     // The raw picture, or the denoised one where there is one, as the window draws it: coarse pictures are enlarged to the size of
     // the reference by linear interpolation of displayed values. `pictures` must have a frame.
     ShownError of(const Pictures& pictures, bool denoised) const;
+    // A scene-linear picture, coarse or not.
+    ShownError of(const RgbImage& shown) const;
     // Of the reference's own noise.
     double reference_relmse() const;
 
