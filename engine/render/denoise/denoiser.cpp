@@ -174,9 +174,11 @@ Result<std::optional<Denoised>> Denoiser::denoise(const DenoiseInput& input, con
     if (const auto good = check(input, options); !good) return good.error();
     try {
         Denoised made;
+        const double prepared_before = state_->networks.seconds_of_preparation();
         const auto finished = Passage(input, options, state_->networks, state_->workers, wanted, progress).run(made);
         if (!finished) return finished.error();
         if (!*finished) return std::optional<Denoised>();
+        made.seconds_of_preparation = state_->networks.seconds_of_preparation() - prepared_before;
         made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return std::optional(std::move(made));
     } catch (const std::bad_alloc&) { return Error{.what = "not enough memory to denoise"}; }

@@ -60,6 +60,7 @@ struct Denoised {
     std::string precision; // "float32" or "bfloat16"
     int tiles = 1;
     double seconds = 0;
+    double seconds_of_preparation = 0; // of these: reading weights, building networks, allocating memory
 };
 
 // Keeps weights, compiled networks and memory between calls. One call at a time; any thread may make it.

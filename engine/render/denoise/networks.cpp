@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 
 namespace blush::denoise {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 // Prepared networks that are cached: the three of one high-quality image, and another size of each.
 constexpr size_t max_cached_networks = 6;
@@ -36,6 +39,7 @@ Networks::Networks(std::filesystem::path folder) : folder_(std::move(folder)) {}
 void Networks::Free::operator()(std::byte* p) const { ::operator delete[](p, alignment); }
 
 Result<int> Networks::run(const NetworkJob& job, const Workers& workers, const std::function<bool()>& wanted) {
+    const auto begin = Clock::now();
     const auto weights = this->weights(job.network, job.inputs);
     if (!weights) return weights.error();
     const UnetChannels channels = (*weights)->channels();
@@ -47,6 +51,7 @@ Result<int> Networks::run(const NetworkJob& job, const Workers& workers, const s
     if (!unet) return unet.error();
 
     std::byte* memory = this->memory((*unet)->bytes(workers));
+    seconds_of_preparation_ += std::chrono::duration<double>(Clock::now() - begin).count();
     const int tiles = grid->columns * grid->rows;
     for (int i = 0; i < tiles; i++) {
         const Tile tile = tile_at(*grid, i % grid->columns, i / grid->columns);

@@ -42,6 +42,8 @@ public:
     Result<int> run(const NetworkJob& job, const Workers& workers, const std::function<bool()>& wanted);
     // Frees everything but the weights.
     void release();
+    // Total seconds so far of reading weights, building networks and allocating memory, which a second run of the same size saves.
+    double seconds_of_preparation() const { return seconds_of_preparation_; }
 
 private:
     struct Made {
@@ -63,6 +65,7 @@ private:
     std::list<Made> made_; // most recently used first
     std::unique_ptr<std::byte[], Free> memory_;
     size_t memory_bytes_ = 0;
+    double seconds_of_preparation_ = 0;
 };
 
 } // namespace blush::denoise

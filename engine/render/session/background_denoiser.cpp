@@ -55,6 +55,7 @@ void BackgroundDenoiser::want(bool wanted) {
         const std::lock_guard lock(mutex_);
         if (wanted_ && !wanted) unwanted_since_ = now();
         wanted_ = wanted;
+        update_pause();
     }
     gate_.notify();
     wake_.notify_one();
@@ -68,6 +69,7 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
         promised = wanted_ && maker_ && failure_.empty() && cadence_.answers_within_a_frame();
         newest_ = {image, std::move(frame), promised};
         newest_image_ = image;
+        update_pause();
     }
     gate_.notify();
     wake_.notify_one();
@@ -135,6 +137,13 @@ void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
     lock.lock();
 }
 
+DenoiseCadence::Decision BackgroundDenoiser::due() const {
+    return wanted_ && maker_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
+}
+
+// Before the thread that offers a frame goes on rendering.
+void BackgroundDenoiser::update_pause() { pauses_rendering_ = (running_.quality ? running_ : due()).pauses_rendering; }
+
 void BackgroundDenoiser::run() {
     std::unique_lock lock(mutex_);
     while (!quit_) {
@@ -142,7 +151,7 @@ void BackgroundDenoiser::run() {
             release(lock);
             continue;
         }
-        const DenoiseCadence::Decision decision = wanted_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
+        const DenoiseCadence::Decision decision = due();
         if (!decision.quality) {
             const double wait = std::min(decision.wait, seconds_to_release());
             if (std::isinf(wait))
@@ -152,13 +161,18 @@ void BackgroundDenoiser::run() {
             continue;
         }
         const Task task = newest_;
+        running_ = decision;
+        update_pause();
         lock.unlock();
         const double begun = now(), shut_before = gate_.closed_seconds();
         Outcome outcome = denoise(task, *decision.quality);
-        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before);
+        const double preparing = outcome.picture ? outcome.picture->denoised.seconds_of_preparation : 0;
+        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before) - preparing;
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
         failure_ = std::move(outcome.failure);
+        running_ = {};
+        update_pause();
         lock.unlock();
         on_answer_(task.image, task.frame, std::move(outcome.picture));
         lock.lock();

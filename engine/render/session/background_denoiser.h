@@ -43,6 +43,8 @@ public:
     // Submits the newest frame; `image` counts images. True if the result is expected within one frame of the window and is worth
     // waiting for. Never blocks.
     bool offer(uint64_t image, FramePtr frame);
+    // True while a run for which rendering should pause is due or in progress. It ends before an answer, or before want() returns.
+    bool pauses_rendering() const { return pauses_rendering_; }
     // Why denoising stopped, for example missing or damaged weights. Empty: it works.
     std::string failure() const;
 
@@ -64,6 +66,9 @@ private:
     bool is_wanted(const Task& task) const;
     bool is_wanted_by_now(const Task& task) const; // after the pause gate
 
+    // These require the mutex.
+    DenoiseCadence::Decision due() const;
+    void update_pause();
     void release(std::unique_lock<std::mutex>& lock);
     double seconds_to_release() const;
 
@@ -74,12 +79,13 @@ private:
     OnRelease on_release_;
 
     // Read between layers without a lock.
-    std::atomic<bool> wanted_{false}, quit_{false};
+    std::atomic<bool> wanted_{false}, quit_{false}, pauses_rendering_{false};
     std::atomic<uint64_t> newest_image_{0};
 
     mutable std::mutex mutex_; // guards the following
     std::condition_variable wake_;
     Task newest_;
+    DenoiseCadence::Decision running_; // no quality: none
     DenoiseCadence cadence_;
     std::string failure_;
     double unwanted_since_ = 0;

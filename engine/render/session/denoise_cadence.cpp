@@ -8,6 +8,8 @@ namespace {
 // Cost of the qualities relative to the small network: 124 GFLOP per megapixel, then 251, then three times 251.
 constexpr std::array<double, 3> relative_cost{1, 2, 6};
 
+DenoiseCadence::Decision wait_for(double seconds) { return {std::nullopt, false, seconds}; }
+
 } // namespace
 
 void DenoiseCadence::offer(const Source& source, double now) {
@@ -36,33 +38,38 @@ bool DenoiseCadence::is_done(DenoiseQuality quality) const {
     return done_ && done_->divider == newest_->divider && done_->samples == newest_->samples && done_->quality >= quality;
 }
 
+DenoiseCadence::Decision DenoiseCadence::now_with(DenoiseQuality quality) const {
+    const double known = predicted(quality), seconds = known > 0 ? known : assumed_speed * newest_->megapixels;
+    return {quality, quality == DenoiseQuality::fast && seconds <= max_pause, 0};
+}
+
 DenoiseCadence::Decision DenoiseCadence::next(double now) const {
     if (!newest_) return {};
     if (newest_->divider > 1) {
-        if (fits_a_frame() && !is_done(DenoiseQuality::fast)) return {DenoiseQuality::fast, 0};
+        if (fits_a_frame() && !is_done(DenoiseQuality::fast)) return now_with(DenoiseQuality::fast);
         return {};
     }
-    if (!done_ || done_->divider > 1) return {DenoiseQuality::fast, 0};
+    if (!done_ || done_->divider > 1) return now_with(DenoiseQuality::fast);
     if (newest_->complete) {
         if (is_done(DenoiseQuality::high)) return {};
-        return {DenoiseQuality::high, 0};
+        return now_with(DenoiseQuality::high);
     }
     const double rests_at = image_begun_ + idle_seconds;
     const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
-    if (is_done(quality)) return {{}, quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now};
+    if (is_done(quality)) return wait_for(quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now);
     const auto affordable_at = [&](double share) { return image_begun_ + (spent_ + predicted(quality)) / share; };
     const bool renews = newest_->samples >= renewal_growth * done_->samples;
     const double due_at = renews ? affordable_at(renewal_share) : std::max(done_->begun + min_interval, affordable_at(time_share));
-    if (now >= due_at) return {quality, 0};
-    return {{}, due_at - now};
+    if (now >= due_at) return now_with(quality);
+    return wait_for(due_at - now);
 }
 
 void DenoiseCadence::record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished) {
     const bool same_image = newest_ && newest_->image == source.image;
     if (same_image) spent_ += seconds;
     if (!finished) return;
-    // The first run of a network includes building it and competes with rendering for the processor. So take the fastest run, and
-    // let slower runs raise the estimate only gradually.
+    // The first run of a network touches its memory for the first time, and long runs compete with rendering for the processor. So
+    // take the fastest run, and let slower runs raise the estimate only gradually.
     double& speed = seconds_per_megapixel_[size_t(quality)];
     const double measured = seconds / std::max(source.megapixels, 1e-6);
     speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;

@@ -13,14 +13,17 @@ namespace blush {
 // An image's first full-resolution frame is denoised at once, and again when its samples have quadrupled, for at most half of the
 // image's render time: noise has halved then, and soon raw frames would be better than the last denoised one. Other frames are denoised
 // at most once per second, all together for at most a tenth of the render time. After a while without edits the large network is used, and
-// the final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Times are seconds of
-// any monotonic clock.
+// the final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Rendering pauses
+// for short runs of the small network: on few cores both at once would delay the denoised picture by more than the samples are worth.
+// Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
     static constexpr double min_interval = 1;         // seconds from the start of one run to the start of the next
     static constexpr double time_share = 0.1;         // of the image's render time
     static constexpr int64_t renewal_growth = 4;      // of the samples
     static constexpr double renewal_share = 0.5;      // of the image's render time
+    static constexpr double max_pause = 1;            // of rendering, for one run
+    static constexpr double assumed_speed = 0.25;     // seconds per megapixel of the small network before its first run
     static constexpr double idle_seconds = 2;         // without an edit
     static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
 
@@ -34,6 +37,7 @@ public:
     };
     struct Decision {
         std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
+        bool pauses_rendering = false;                         // while it runs
         double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when something changes
     };
 
@@ -44,12 +48,13 @@ public:
     bool answers_within_a_frame() const;
     Decision next(double now) const;
     // Records that the run requested by next(), of the newest frame at
-    // time `begun`, took `seconds`; `finished`: it produced an image.
+    // time `begun`, took `seconds` without preparation of the network; `finished`: it produced an image.
     void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
 
 private:
     bool is_done(DenoiseQuality quality) const;
     bool fits_a_frame() const;
+    Decision now_with(DenoiseQuality quality) const;
     // Estimated seconds for the newest frame; 0 if nothing was denoised yet.
     double predicted(DenoiseQuality quality) const;
 

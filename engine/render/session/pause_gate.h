@@ -15,10 +15,10 @@ public:
     void close();
     void open();
     bool is_closed() const { return closed_.load(std::memory_order_relaxed); }
-    // Blocks while closed, unless hurries() becomes true. One relaxed load when open.
+    // Blocks while closed, unless interrupted() becomes true. One relaxed load when open.
     void wait_while_closed(const std::function<bool()>& interrupted);
     bool has_waiting_threads() const { return waiting_.load(std::memory_order_relaxed) > 0; }
-    // Wakes waiting threads to call `hurries` again.
+    // Wakes waiting threads to call `interrupted` again.
     void notify();
     // Total seconds closed so far.
     double closed_seconds() const;

@@ -100,7 +100,8 @@ struct RenderSession::State {
     // Requires the mutex.
     SessionStatus::State due_state() const;
     bool must_show() const { return has_scene && !has_first_image; }
-    bool has_work() const { return due_state() == SessionStatus::State::rendering; }
+    // Rendering pauses between batches for the denoiser, not between tiles: the denoiser would lack a worker that waits in a tile.
+    bool has_work() const { return due_state() == SessionStatus::State::rendering && !(has_first_image && denoiser->pauses_rendering()); }
     bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->content->image != current->image); }
 
     SubmissionPtr submit(uint64_t revision, const SubmissionContent& content, Changes changes, FilmStatePtr film);
@@ -209,6 +210,7 @@ void RenderSession::State::receive_denoised(uint64_t image, const FramePtr& sour
         status.denoiser_failure = denoiser->failure();
         if (!status.denoiser_failure.empty()) showcase.release();
     }
+    wake.notify_one(); // rendering may have paused for it
     on_frame();
 }
 
@@ -451,8 +453,11 @@ void RenderSession::yield_to_ui(bool yielding) {
 void RenderSession::want_denoised(bool wanted) {
     state_->denoiser->want(wanted);
     if (wanted) return;
-    const std::lock_guard lock(state_->mutex);
-    state_->showcase.release();
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->showcase.release();
+    }
+    state_->wake.notify_one(); // rendering may have paused for a denoised picture
 }
 
 Pictures RenderSession::pictures() const { return state_->current_pictures(); }

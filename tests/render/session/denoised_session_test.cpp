@@ -239,6 +239,29 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
         if (e.denoised) { EXPECT_EQ(e.denoised->revision, 2u); }
 }
 
+TEST(DenoisedSession, RenderingPausesForTheFirstDenoisedPicture) {
+    StandIn networks;
+    std::atomic<bool> begun{false}, may_end{false};
+    networks.instead = [&](size_t call, const std::function<bool()>&) {
+        begun = true;
+        if (call == 1) {
+            EXPECT_TRUE(eventually([&] { return may_end.load(); }));
+        }
+        return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
+    };
+    RecordingSession session(2, {}, networks.function());
+    session->want_denoised(true);
+    submit(session, 1, small_project(1'000'000));
+    EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
+    // A batch that has begun is finished.
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const int64_t samples = session->pictures().frame->samples;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(session->pictures().frame->samples, samples);
+    may_end = true;
+    EXPECT_TRUE(eventually([&] { return session->pictures().frame->samples > samples; })) << "rendering does not resume";
+}
+
 TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
     StandIn networks;
     std::atomic<bool> begun{false};
