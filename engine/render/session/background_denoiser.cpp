@@ -76,6 +76,11 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
     return promised;
 }
 
+double BackgroundDenoiser::coarse_speed() const {
+    const std::lock_guard lock(mutex_);
+    return wanted_ && failure_.empty() ? cadence_.coarse_speed() : 0;
+}
+
 std::string BackgroundDenoiser::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;

@@ -43,6 +43,8 @@ public:
     // Submits the newest frame; `image` counts images. True if the result is expected within one frame of the window and is worth
     // waiting for. Never blocks.
     bool offer(uint64_t image, FramePtr frame);
+    // Expected seconds of denoising a first, coarse image, per megapixel; 0 if that is not wanted or not known yet.
+    double coarse_speed() const;
     // True while a run for which rendering should pause is due or in progress. It ends before an answer, or before want() returns.
     bool pauses_rendering() const { return pauses_rendering_; }
     // Why denoising stopped, for example missing or damaged weights. Empty: it works.

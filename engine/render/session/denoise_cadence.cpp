@@ -21,7 +21,12 @@ void DenoiseCadence::offer(const Source& source, double now) {
     newest_ = source;
 }
 
+double DenoiseCadence::coarse_speed() const {
+    return coarse_seconds_per_megapixel_ > 0 ? coarse_seconds_per_megapixel_ : seconds_per_megapixel_[size_t(DenoiseQuality::fast)];
+}
+
 double DenoiseCadence::predicted(DenoiseQuality quality) const {
+    if (newest_->divider > 1) return coarse_speed() * newest_->megapixels;
     const double measured = seconds_per_megapixel_[size_t(quality)];
     const double speed = measured > 0 ? measured : seconds_per_megapixel_[size_t(DenoiseQuality::fast)] * relative_cost[size_t(quality)];
     return speed * newest_->megapixels;
@@ -70,7 +75,7 @@ void DenoiseCadence::record(const Source& source, DenoiseQuality quality, double
     if (!finished) return;
     // The first run of a network touches its memory for the first time, and long runs compete with rendering for the processor. So
     // take the fastest run, and let slower runs raise the estimate only gradually.
-    double& speed = seconds_per_megapixel_[size_t(quality)];
+    double& speed = source.divider > 1 ? coarse_seconds_per_megapixel_ : seconds_per_megapixel_[size_t(quality)];
     const double measured = seconds / std::max(source.megapixels, 1e-6);
     speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;
     if (same_image) done_ = Done{source.samples, source.divider, quality, begun};

@@ -47,6 +47,8 @@ public:
     // within one frame of the window, so that waiting is worthwhile.
     bool answers_within_a_frame() const;
     Decision next(double now) const;
+    // Expected seconds of a run of the small network for a coarse frame, per megapixel; 0 if nothing was denoised yet.
+    double coarse_speed() const;
     // Records that the run requested by next(), of the newest frame at
     // time `begun`, took `seconds` without preparation of the network; `finished`: it produced an image.
     void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
@@ -59,7 +61,8 @@ private:
     double predicted(DenoiseQuality quality) const;
 
     std::optional<Source> newest_;
-    std::array<double, 3> seconds_per_megapixel_{}; // by quality; 0: not known
+    std::array<double, 3> seconds_per_megapixel_{}; // of frames at full resolution, by quality; 0: not known
+    double coarse_seconds_per_megapixel_ = 0;       // small network, coarse frames: they use the cores less well
 
     // Of the newest frame's image.
     double image_begun_ = 0;

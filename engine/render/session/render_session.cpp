@@ -233,6 +233,8 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     error_cadence.restart();
     estimated = {};
     scheduler.restart(film_settings, true);
+    const double pictures = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
+    scheduler.expect_denoising(1e-6 * pictures * denoiser->coarse_speed());
     announce(SessionStatus::State::updating);
     if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
     renderer->set_planes(with_first_hits(current->planes, options));

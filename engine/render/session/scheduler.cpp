@@ -29,22 +29,29 @@ void Scheduler::resume(int64_t samples, double seconds) {
     seconds_ = last_publish_ = seconds;
 }
 
-int Scheduler::first_divider() const {
-    if (!interactive_) return 1;
-    // Without measurements, assume two million full paths per second.
-    const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : double(settings_.width) * double(settings_.height) / 2e6;
+// The finest resolution at which an image that takes `full_seconds` at full size takes at most `budget`.
+int Scheduler::divider_within(double budget, double full_seconds) const {
     const int long_side = std::max(settings_.width, settings_.height);
     const auto too_slow = [&](int divider, double seconds) {
-        return divider < coarsest_divider && full / (divider * divider) > seconds && long_side / (divider + 1) >= min_long_side;
+        return divider < coarsest_divider && full_seconds / (divider * divider) > seconds && long_side / (divider + 1) >= min_long_side;
     };
     // A series of edits keeps one resolution although timings vary: changes of it are visible as flicker.
     const int last = last_first_divider_;
-    if (last > 0 && !too_slow(last, first_image_seconds * timing_tolerance) &&
-        (last == 1 || too_slow(last - 1, first_image_seconds / timing_tolerance)))
-        return last;
+    if (last > 0 && !too_slow(last, budget * timing_tolerance) && (last == 1 || too_slow(last - 1, budget / timing_tolerance))) return last;
     int divider = 1;
-    while (too_slow(divider, first_image_seconds)) ++divider;
+    while (too_slow(divider, budget)) ++divider;
     return divider;
+}
+
+int Scheduler::first_divider() const {
+    if (!interactive_) return 1;
+    // Without measurements, assume two million full paths per second.
+    const double pixels = double(settings_.width) * double(settings_.height);
+    const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : pixels / 2e6;
+    const int raw = divider_within(first_image_seconds, full);
+    if (raw == 1 || denoising_seconds_per_pixel_ == 0) return raw;
+    const int denoised = divider_within(first_denoised_seconds, full + pixels * denoising_seconds_per_pixel_);
+    return denoised <= 2 * raw ? std::max(raw, denoised) : raw;
 }
 
 // True if the film is coarse, and as many samples again take little of the time of one at full resolution.

@@ -29,6 +29,8 @@ public:
 
     // Tracing time of the coarse image; cancelling, resolving and drawing take the rest of a sixtieth of a second.
     static constexpr double first_image_seconds = 1.0 / 80;
+    // The same with denoising, if each first image is denoised before it is shown and may be half as fine for it.
+    static constexpr double first_denoised_seconds = 1.0 / 40;
     // Ratio of measured times that is taken for chance: within it, the first image keeps the resolution of the last one.
     static constexpr double timing_tolerance = 1.1;
     // Coarse images get samples until they took this share of a sample at full resolution: until that is shown, more samples in fewer
@@ -39,6 +41,8 @@ public:
 
     // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);
+    // After a restart: seconds that denoising would take per film pixel of a coarse image; 0: first images are shown as they are.
+    void expect_denoising(double seconds_per_pixel) { denoising_seconds_per_pixel_ = seconds_per_pixel; }
     // After a restart: continues from so many samples per pixel, rendered in `seconds`.
     void resume(int64_t samples, double seconds);
     // For changed stop rules of an unchanged image.
@@ -64,6 +68,7 @@ public:
 
 private:
     int first_divider() const;
+    int divider_within(double budget, double full_seconds) const;
     bool coarse_image_is_worth_more() const;
     double publish_interval() const;
     bool error_may_be_reached(int64_t samples) const;
@@ -75,6 +80,7 @@ private:
     int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
     bool interactive_ = true;
+    double denoising_seconds_per_pixel_ = 0;
     double seconds_ = 0;      // render time of this revision
     double last_publish_ = 0; // seconds_ when last published
     double error_ = -1;       // last estimate, made at

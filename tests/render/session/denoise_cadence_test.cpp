@@ -97,21 +97,22 @@ TEST(DenoiseCadence, IsRenewedWhenTheSamplesHaveQuadrupled) {
 }
 
 TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
-    const auto pauses = [](double seconds, double megapixels, double after) {
+    // After a run of so many seconds a megapixel: of the next image, or of the same one much later.
+    const auto pauses = [](double speed, double megapixels, uint64_t image, double at) {
         DenoiseCadence cadence;
         const Source source{1, 1, 1, false, megapixels};
         cadence.offer(source, 0);
-        if (seconds > 0) cadence.record(source, fast, 0, seconds * megapixels, true);
-        cadence.offer({1, 1000, 1, false, megapixels}, 0);
-        const auto decision = cadence.next(after);
+        if (speed > 0) cadence.record(source, fast, 0, speed * megapixels, true);
+        cadence.offer({image, 1000, 1, false, megapixels}, at);
+        const auto decision = cadence.next(at);
         EXPECT_TRUE(decision.quality);
         return decision.pauses_rendering;
     };
-    EXPECT_TRUE(pauses(0, 0.9, 0.1)) << "the first one, whose time is not known";
-    EXPECT_FALSE(pauses(0, 33, 0.1)) << "the first one of a large picture";
-    EXPECT_TRUE(pauses(0.2, 0.9, 1.9));
-    EXPECT_FALSE(pauses(1.5, 0.9, 3.9)) << "on a slow machine";
-    EXPECT_FALSE(pauses(0.2, 0.9, 100)) << "the large network, used after a while without edits";
+    EXPECT_TRUE(pauses(0, 0.9, 1, 0)) << "the first one, whose time is not known";
+    EXPECT_FALSE(pauses(0, 33, 1, 0)) << "the first one of a large picture";
+    EXPECT_TRUE(pauses(0.2, 0.9, 2, 1));
+    EXPECT_FALSE(pauses(1.5, 0.9, 2, 1)) << "on a slow machine";
+    EXPECT_FALSE(pauses(0.2, 0.9, 1, 100)) << "the large network, used after a while without edits";
 }
 
 TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {

@@ -77,6 +77,23 @@ TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
     EXPECT_EQ(scheduler.next().divider, 5) << "a scene that became slower";
 }
 
+TEST(Scheduler, FirstPictureLeavesTimeForDenoising) {
+    const double pixels = 1280 * 720, sample_seconds = 0.2;
+    for (const double denoising : {0.1, 0.2, 0.4, 1.0}) {
+        Scheduler scheduler = experienced({sample_seconds}, endless());
+        scheduler.expect_denoising(denoising / pixels);
+        const int d = scheduler.next().divider;
+        EXPECT_LE((sample_seconds + denoising) / (d * d), Scheduler::first_denoised_seconds * Scheduler::timing_tolerance) << denoising;
+        EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << denoising;
+    }
+    Scheduler slow = experienced({sample_seconds}, endless());
+    slow.expect_denoising(20 / pixels);
+    EXPECT_EQ(slow.next().divider, experienced({sample_seconds}, endless()).next().divider) << "denoising that would not be in time";
+    Scheduler fast = experienced({0.001}, endless());
+    fast.expect_denoising(0.1 / pixels);
+    EXPECT_EQ(fast.next().divider, 1) << "full resolution needs no coarse image";
+}
+
 TEST(Scheduler, FirstPictureHasAMinimumSize) {
     EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
