@@ -151,6 +151,9 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
     if (const auto& s = findings.speed)
         fmt::print("{:<22} {:.2f} Mpaths/s of one core, {} {:.2f}: {:.2f} times as fast\n", "", s->own_mpaths_per_s, s->full,
                    s->full_mpaths_per_s, s->ratio);
+    for (const FeatureUse& use : info.features)
+        if (const auto& p = use.pilot)
+            fmt::print("{:<22} {}: MSE x {:.3f}, relMSE x {:.3f}, work x {:.3f}\n", "pilot", use.name, p->mse, p->relmse, p->work);
     print_uses("with", info.features, true);
     print_uses("left out", info.features, false);
     fmt::print("{:<22} {:.1f} MB, {:.2f} s to load, {:.2f} s to set up\n", "cost", info.memory_mb, loaded.report.seconds,
@@ -167,6 +170,7 @@ int run_info(const InfoCommand& c) {
     if (!loaded) return failed(loaded.error());
     Renderer renderer({.threads = c.common.threads, .planes = {}});
     renderer.update(loaded->scene, settings);
+    if (c.measure) renderer.decide();
     Findings findings{renderer.info(), {}};
     if (c.measure) findings.speed = measure_kernel_speed(loaded->scene, settings);
     findings.info.features =
@@ -184,8 +188,8 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_flag("--measure", command->measure,
                   "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "
-                  "for a few seconds, and "
-                  "the start-up time of the view transform and of the denoiser");
+                  "for a few seconds, "
+                  "the start-up time of the view transform and of the denoiser, and what path reuse gains and costs");
     add_staging_options(*sub, command->overrides.staging);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });

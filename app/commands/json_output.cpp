@@ -18,8 +18,12 @@ Result<void> write_json(const std::string& target, const OrderedJson& json) {
 OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_report) {
     const auto known = [](const auto& value, double scale) { return value ? OrderedJson(double(*value) * scale) : OrderedJson(); };
     OrderedJson features = OrderedJson::array(), left_out = OrderedJson::array(), made = OrderedJson::array();
+    OrderedJson pilots = OrderedJson::array();
     for (const FeatureUse& use : feature_report) {
         const OrderedJson mib = known(use.bytes, 1.0 / 1048576), ms = known(use.seconds, 1e3);
+        if (const auto& p = use.pilot)
+            pilots.push_back(
+                {{"name", use.name}, {"used", use.used}, {"mse", p->mse}, {"relmse", p->relmse}, {"work", p->work}, {"cost", p->cost()}});
         if (!use.used)
             left_out.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"saves_mib", mib}, {"saves_ms", ms}});
         else if (use.part == "kernel")
@@ -27,7 +31,7 @@ OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_
         else
             made.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"mib", mib}, {"ms", ms}});
     }
-    return {{"name", kernel}, {"features", features}, {"left_out", left_out}, {"made", made}};
+    return {{"name", kernel}, {"features", features}, {"left_out", left_out}, {"made", made}, {"pilots", pilots}};
 }
 
 } // namespace blush

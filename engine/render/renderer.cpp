@@ -6,8 +6,11 @@
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
 #include "render/film/film.h"
+#include "render/film/film_columns.h"
 #include "render/film/film_state.h"
 #include "render/film/pilot_variance.h"
+#include "render/film/reuse_choice.h"
+#include "render/film/reuse_pilot.h"
 #include "render/film/sample_allocation.h"
 #include "render/film/shadow_catcher.h"
 #include "render/integrator/irradiance.h"
@@ -51,6 +54,7 @@ struct Renderer::State {
     Film film;
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
+    ReuseChoice reuse;                                 // of the scene and settings
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
@@ -70,6 +74,7 @@ struct Renderer::State {
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
+    int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(sample) : reuse.first_group_size(); }
 
     FilmSize full_film() const {
         return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
@@ -146,22 +151,8 @@ struct Renderer::State {
     }
     TileScratch& scratch_of(unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-        TileScratch& s = *scratch[worker];
-        if (film.needs_first_hits() && !s.first) s.first = std::make_unique<FirstHitColumns>();
-        if (!film.needs_first_hits()) s.first.reset();
-        const int bounces = film.needs_bounces();
-        if (bounces == 0)
-            s.bounces.reset();
-        else if (!s.bounces || int(s.bounces->after.size()) != bounces)
-            s.bounces = std::make_unique<BounceColumns>(bounces);
-        const int groups_needed = film.needs_groups();
-        if (groups_needed == 0)
-            s.groups.reset();
-        else if (!s.groups || s.groups->count() != groups_needed || s.groups->direct.empty() == film.needs_direct_groups())
-            s.groups = std::make_unique<GroupColumns>(groups_needed, film.needs_direct_groups());
-        if (film.needs_roulette() && !s.roulette) s.roulette = std::make_unique<RouletteColumns>();
-        if (!film.needs_roulette()) s.roulette.reset();
-        return s;
+        fit_columns(*scratch[worker], film);
+        return *scratch[worker];
     }
 };
 
@@ -184,6 +175,7 @@ bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, Lig
 
 void Renderer::State::begin_film(Clock::time_point begun) {
     clear();
+    reuse = ReuseChoice(settings, scene);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
     seconds_setup = seconds_since(begun);
@@ -239,9 +231,9 @@ const CompiledInfo& Renderer::info() {
     if (!s.info) {
         s.info = s.scene.info();
         s.info->kernel = s.kernel_name;
-        s.info->features = *feature_report();
         s.info->seconds_setup = s.seconds_setup;
     }
+    s.info->features = *feature_report();
     return *s.info;
 }
 
@@ -249,9 +241,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
     State& s = *state_;
     if (!s.feature_report) {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
-        const int reuse = s.settings.reuse;
-        feature_report.push_back(
-            {"kernel", "path reuse", reuse > 1, reuse > 1 ? fmt::format("groups of {} pixels", reuse) : "switched off"});
+        feature_report.push_back(s.reuse.report());
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;
@@ -264,7 +254,8 @@ std::vector<Vec3> Renderer::resolve_error() {
 
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
-    return state_->settings.reuse > 1 ? measure_reuse_covariance(state_->film, reuse_groups(state_->settings.reuse)) : ReuseCovariance{};
+    const int group_size = reuse_group_size(state_->settings);
+    return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : ReuseCovariance{};
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
@@ -311,8 +302,8 @@ Vec3d Renderer::irradiance(const MeterPlace& place, uint32_t replicate, int samp
 // The rendered part of the film. Path reuse needs whole groups.
 PixelRect Renderer::State::rendered_pixels() const {
     PixelRect r = pixels_of(settings.region, film.width(), film.height());
-    if (settings.reuse <= 1) return r;
-    const ReuseGroups groups = reuse_groups(settings.reuse);
+    if (reuse.first_group_size() <= 1) return r;
+    const ReuseGroups groups = reuse_groups(reuse.first_group_size());
     const auto down = [](int x, int block) { return x / block * block; };
     const auto up = [](int x, int block) { return (x + block - 1) / block * block; };
     return {down(r.x0, groups.block_width), down(r.y0, groups.block_height), std::min(up(r.x1, groups.block_width), film.width()),
@@ -346,10 +337,10 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
     return all_begun && !cut_short;
 }
 
-// Renders the same samples for every pixel.
+// Renders the same samples for every pixel; path reuse is the same for all of them.
 bool Renderer::State::render_uniformly(int64_t first, int64_t count, const Wanted& wanted) {
     const PixelRect pixels = rendered_pixels();
-    const ReuseGroups groups = reuse_groups(settings.reuse);
+    const ReuseGroups groups = reuse_groups(reuse_group_size(first));
     const int64_t pixels_per_worker = int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads();
     const TileShape shape = groups.size() > 1 ? tile_shape(groups) : tile_shape(count, pixels_per_worker);
     return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
@@ -360,7 +351,7 @@ bool Renderer::State::render_uniformly(int64_t first, int64_t count, const Wante
 // Renders the samples of each half of each tile by the sample plan.
 bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
     constexpr TileShape shape{SampleAllocation::tile_size, SampleAllocation::tile_size, 8};
-    const ReuseGroups groups = reuse_groups_of_plan(settings.reuse);
+    const ReuseGroups groups = reuse_groups_of_plan(reuse_group_size(first));
     return for_each_tile(shape, wanted, [&](int tile, const TileJob& job, unsigned worker) {
         for (int half = 0; half < 2; ++half) {
             const int64_t from = sample_allocation.samples(tile, half, first), to = sample_allocation.samples(tile, half, first + count);
@@ -370,21 +361,34 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
     });
 }
 
+bool Renderer::decide(const std::function<bool()>& wanted) {
+    State& s = *state_;
+    if (!s.reuse.needs_pilot()) return true;
+    KernelContext context{&s.scene.tables(), &s.scene.accel(), kernel_settings(s.settings, s.settings.width, s.settings.height)};
+    context.settings.filter_textures = s.options.filter_textures;
+    const auto measured = measure_path_reuse(context, *s.kernel, s.reuse.first_group_size(), s.workers, s.replays, wanted);
+    if (!measured) return false;
+    s.reuse.decide(*measured);
+    s.feature_report.reset();
+    return true;
+}
+
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
-    if (!s.settings.adaptive) {
-        if (!s.render_uniformly(first, count, wanted)) return !(s.film_is_uneven = true);
-        s.samples += count;
-        return true;
-    }
-    // In steps that end where the pilot is measured.
-    for (int64_t left = count; left > 0;) {
-        const int64_t step = std::min(left, SampleAllocation::next_measurement(s.samples) - s.samples);
-        if (!(s.sample_allocation.decided() ? s.render_by_plan(s.samples, step, wanted) : s.render_uniformly(s.samples, step, wanted)))
-            return !(s.film_is_uneven = true);
+    const int64_t begin = s.settings.adaptive ? s.samples : first;
+    if (s.divider == 1 && begin + count > 1 && !decide(wanted)) return false;
+    for (int64_t done = 0; done < count;) {
+        const int64_t next = begin + done;
+        int64_t step = count - done;
+        // Ends where the pilot of adaptive sampling is measured, and where path reuse changes.
+        if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
+        if (next == 0 && s.reuse_group_size(0) != s.reuse_group_size(1)) step = 1;
+        const bool planned = s.settings.adaptive && s.sample_allocation.decided();
+        if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
         s.samples += step;
-        left -= step;
+        done += step;
+        if (!s.settings.adaptive) continue;
         if (s.samples == SampleAllocation::pilot_samples / 2) s.pilot_variance.mark(s.film);
         if (s.samples == SampleAllocation::pilot_samples) s.sample_allocation.decide(s.pilot_variance.measure(s.film));
     }
@@ -424,7 +428,7 @@ Frame Renderer::resolve() {
 ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
-    ErrorEstimate error = blush::estimate_error(s.film, s.settings.reuse, s.workers);
+    ErrorEstimate error = blush::estimate_error(s.film, reuse_group_size(s.settings), s.workers);
     // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light().empty()) {
         error.known = error.known && error.high > 0;
@@ -448,6 +452,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.samples = s.samples;
     state.shares = s.sample_allocation.shares();
     if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
+    state.reuse_pilot = s.reuse.pilot();
     state.rays = s.rays;
     state.path_counts = s.path_counts;
     state.truncated = s.truncated;
@@ -476,6 +481,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});
     });
     if (marked) s.pilot_variance.restore(state.marked);
+    if (state.reuse_pilot) s.reuse.decide(*state.reuse_pilot);
     s.samples = state.samples;
     s.rays = state.rays;
     s.path_counts = state.path_counts;

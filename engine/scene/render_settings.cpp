@@ -1,11 +1,13 @@
 #include "scene/render_settings.h"
 
+#include "scene/reuse_setting.h"
+
 namespace blush {
 
 RenderSettings recommended_settings() {
     RenderSettings settings;
     settings.adaptive = true;
-    settings.reuse = 8;
+    settings.reuse = reuse_auto;
     settings.mis_compensation = true;
     return settings;
 }

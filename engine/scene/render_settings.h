@@ -61,7 +61,7 @@ struct RenderSettings {
     bool energy_compensation = false;
     bool mis_compensation = false; // light sampling leaves out what BSDF sampling covers (environment_table.h); needs Strategy::mis
     bool adaptive = false;         // adaptive sampling; spp is then the mean. Requires first_sample = 0
-    int reuse = 1;                 // path reuse: pixels that share their second path vertices: 4, 8, 16, or 1 (off)
+    int reuse = 1;                 // path reuse: pixels that share their second path vertices: 4, 8, 16, 1 (off), or reuse_auto
     Clamp clamp = {};
     PictureRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty
     bool operator==(const RenderSettings&) const = default;
@@ -86,7 +86,7 @@ Result<Clamp> parse_clamp(std::string_view text);
 std::string to_string(const Clamp& clamp);
 Result<int> parse_max_bounces(std::string_view text); // a number or "unlimited"
 std::string max_bounces_text(int max_bounces);
-Result<int> parse_reuse(std::string_view text); // "4", "8", "16" or "off"
+Result<int> parse_reuse(std::string_view text); // "auto", "off", "4", "8" or "16"
 std::string_view reuse_text(int reuse);         // empty for other numbers
 Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);

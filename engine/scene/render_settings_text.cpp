@@ -2,6 +2,7 @@
 #include "core/text.h"
 #include "scene/enum_names.h"
 #include "scene/render_settings.h"
+#include "scene/reuse_setting.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ constexpr std::array<EnumName<SamplerType>, 2> sampler_words{{
     {SamplerType::sobol, "sobol"},
     {SamplerType::random, "random"},
 }};
-constexpr std::array<EnumName<int>, 4> reuse_words{{{1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
+constexpr std::array<EnumName<int>, 5> reuse_words{{{reuse_auto, "auto"}, {1, "off"}, {4, "4"}, {8, "8"}, {16, "16"}}};
 
 Result<float> parse_probability(std::string_view text, std::string_view name, bool zero_allowed) {
     float p = 0;

@@ -208,7 +208,8 @@ Result<void> validate(const RenderSettings& settings) {
              fmt::format("adaptive sampling must start at sample 0, not {}", settings.first_sample));
     check.region("rendered region", settings.region);
     check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
-    check.is(!reuse_text(settings.reuse).empty(), fmt::format("pixels that reuse paths must be 1, 4, 8 or 16, not {}", settings.reuse));
+    check.is(!reuse_text(settings.reuse).empty(),
+             fmt::format("pixels that reuse paths must be 0 (automatic), 1, 4, 8 or 16, not {}", settings.reuse));
     const Roulette& roulette = settings.roulette;
     check.not_negative("clamp", settings.clamp.limit);
     check.not_negative("roulette's start", roulette.start);

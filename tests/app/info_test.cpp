@@ -24,7 +24,7 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     EXPECT_GE(json["triangles"], 2 * (5 + 2 * 5 + 1));
     EXPECT_GE(json["lights"]["emissive_triangles"], 2);
     EXPECT_FALSE(json["kernel"]["name"].get<std::string>().empty());
-    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
+    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name", "pilots"}));
     EXPECT_FALSE(json["kernel"]["left_out"].empty());
     for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
 }

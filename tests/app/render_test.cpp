@@ -287,7 +287,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
               (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
     EXPECT_EQ(test::keys_of(json["health"]),
               (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
-    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name"}));
+    EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name", "pilots"}));
     EXPECT_EQ(json["width"], 24);
     EXPECT_EQ(json["spp"], 4);
     EXPECT_EQ(json["rays"]["camera"], 24 * 16 * 4);

@@ -3,8 +3,10 @@
 #include "render/light_mix/bake_mix.h"
 #include "render/light_mix/light_groups.h"
 #include "scene/lights/ies_profile.h"
+#include "scene/reuse_setting.h"
 #include "tests/support/sample_project.h"
 
+#include <array>
 #include <type_traits>
 
 namespace blush::test {
@@ -236,7 +238,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 4: r.seed = uint32_t(whole(rng, 0, 1000)); break;
     case 5: r.energy_compensation = !r.energy_compensation; break;
     case 6: r.adaptive = !r.adaptive; break;
-    case 7: r.reuse = coin(rng) ? 1 : 4 << whole(rng, 0, 2); break;
+    case 7: r.reuse = std::array{reuse_auto, 1, 4, 8, 16}[size_t(whole(rng, 0, 4))]; break;
     case 8: r.sampler = SamplerType(whole(rng, 0, 1)); break;
     case 9: r.clamp = {uniform(rng, 0, 2), whole(rng, 0, 1) == 1}; break;
     case 10: r.mis_compensation = !r.mis_compensation; break;

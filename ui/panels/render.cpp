@@ -1,4 +1,5 @@
 // Render tab: size, stop rules and path tracing settings. The same settings as `blush render` has.
+#include "scene/reuse_setting.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
 #include "ui/widgets/tooltip.h"
@@ -79,12 +80,13 @@ void draw_stop_rules(Fields& f, RenderSettings& r) {
 }
 
 void draw_reuse(Fields& f, RenderSettings& r) {
-    static constexpr const char* names[] = {"Off", "4 pixels", "8 pixels", "16 pixels"};
-    static constexpr int sizes[] = {1, 4, 8, 16};
+    static constexpr const char* names[] = {"Auto", "Off", "4 pixels", "8 pixels", "16 pixels"};
+    static constexpr int sizes[] = {reuse_auto, 1, 4, 8, 16};
     int choice = int(std::find(std::begin(sizes), std::end(sizes), r.reuse) - std::begin(sizes));
     if (f.choice("Path reuse", choice, names,
                  "Groups of this many nearby pixels share the light that their paths find at a second diffuse surface. It is unbiased; "
-                 "indirect light gets less noisy for a few more shadow rays."))
+                 "indirect light gets less noisy for more shadow rays. Auto: 8 pixels where a pilot measures that this pays; the section "
+                 "Specialisation below says what it found."))
         r.reuse = sizes[choice];
 }
 

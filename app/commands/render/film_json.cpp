@@ -5,6 +5,7 @@
 #include "render/diagnostics/health_recorder.h"
 #include "render/light_mix/light_groups.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -129,6 +130,7 @@ std::string film_json(const FilmState& film) {
               {"health", film_health_json(film.health)}};
     for (const FilmState::MixedGroup& g : film.mix) json["mix"].push_back({g.name, g.gain.x, g.gain.y, g.gain.z});
     if (!film.shares[0].empty()) json["shares"] = {film.shares[0], film.shares[1]};
+    if (const auto& p = film.reuse_pilot) json["reuse_pilot"] = {p->mse, p->relmse, p->work};
     return json_text(json);
 }
 
@@ -156,6 +158,10 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
         for (size_t half = 0; half < 2; ++half)
             if (!read_list(shares[half], pixels, film.shares[half], [](const Json& item, double& share) { return read_json(item, share); }))
                 return bad("shares");
+    }
+    if (const Json& pilot = member(*json, "reuse_pilot"); !pilot.is_null()) {
+        PilotFigures& p = film.reuse_pilot.emplace();
+        if (!read_numbers(pilot, p.mse, p.relmse, p.work) || !(std::min({p.mse, p.relmse, p.work}) > 0)) return bad("reuse_pilot");
     }
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
     film.planes = lossless_planes(image, "film");

@@ -257,6 +257,7 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         rendered.loop = run_render_loop(
             renderer, plan.settings, interrupted, [&](const LoopProgress& p) { progress.update(p.fraction, loop_note(p)); }, begin);
     }
+    rendered.info.features = renderer.info().features; // pilots have decided
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
         const Diagnostic nothing{Diagnostic::Severity::warning,

@@ -1,12 +1,22 @@
 // The feature report: one line for each feature that is built only if a scene needs it, with presence, reason and cost.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace blush {
+
+// What a pilot measured: ratios with the feature over without it.
+struct PilotFigures {
+    double mse = 1, relmse = 1; // variance of the samples
+    double work = 1;            // rays traced, weighted by their usual time
+    // Work for the same error, of both kinds of error alike.
+    double cost() const { return std::sqrt(mse * relmse) * work; }
+    bool operator==(const PilotFigures&) const = default;
+};
 
 struct FeatureUse {
     std::string part; // "kernel", "film", "geometry", "textures", "lights", "display", "denoiser"
@@ -17,6 +27,8 @@ struct FeatureUse {
     std::optional<int64_t> bytes = {};
     // Time to build it in this process, in seconds. Empty: not measured.
     std::optional<double> seconds = {};
+    // Empty: no pilot has measured it.
+    std::optional<PilotFigures> pilot = {};
 };
 using FeatureReport = std::vector<FeatureUse>;
 

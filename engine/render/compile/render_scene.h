@@ -49,6 +49,8 @@ public:
     const std::vector<uint8_t>& catchers() const { return catchers_; }
     // True if NEE or rays can find light.
     bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
+    // True if some surface may be Lambertian, as path reuse needs it.
+    bool may_be_lambertian() const { return used_.lambertian; }
     // See missing_light.h.
     const std::string& missing_light() const { return missing_light_; }
     // Everything except the kernel and the feature report.

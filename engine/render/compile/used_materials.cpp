@@ -18,6 +18,7 @@ UsedMaterials describe(std::vector<Id<Material>> ids, const Scene& scene, const 
     for (const Id<Material> id : ids) {
         const Material* material = scene.materials.find(id);
         used.features.bits |= features_of(material ? *material : Material{}).bits;
+        used.lambertian |= may_be_lambertian(material ? *material : Material{});
         if (is_emissive(table.records[size_t(table.index_of(id))])) used.emissive.push_back(id);
         if (!material) continue;
         if (material->alpha != Material::Alpha::opaque) used.alpha.push_back(id);

@@ -8,6 +8,7 @@
 #include "render/integrator/kernel_settings.h"
 #include "render/renderer.h"
 #include "scene/affine.h"
+#include "scene/reuse_setting.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -109,7 +110,9 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             log.outcome(vertex.bounce, vertex.step, vertex.arrived);
             return true;
         });
-        if (settings.reuse > 1)
+        if (settings.reuse == reuse_auto)
+            log.line("path reuse: chosen for each image; where it is used, the film shares the light of this path; alone it is worth");
+        else if (settings.reuse > 1)
             log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
                      "is worth",
                      settings.reuse);

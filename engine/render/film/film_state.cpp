@@ -3,6 +3,7 @@
 #include "render/compile/expanded_lights.h"
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_planes.h"
+#include "render/film/reuse_choice.h"
 #include "render/light_mix/light_groups.h"
 
 #include <algorithm>
@@ -165,7 +166,7 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.rays = state.rays;
     frame.path_counts = state.path_counts;
     frame.health.truncated = state.truncated;
-    frame.error = estimate_error(film, settings.reuse, workers);
+    frame.error = estimate_error(film, reuse_group_size(settings), workers);
     frame.error_samples = frame.samples;
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();
@@ -187,6 +188,7 @@ Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const Rend
     sum.rays = {a.rays.camera + b.rays.camera, a.rays.bounce + b.rays.bounce, a.rays.shadow + b.rays.shadow};
     sum.truncated = a.truncated + b.truncated;
     sum.mix = a.mix;
+    sum.reuse_pilot = a.reuse_pilot ? a.reuse_pilot : b.reuse_pilot;
     sum.path_counts = a.path_counts;
     sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
     for (size_t k = 0; k < b.path_counts.size(); ++k) {

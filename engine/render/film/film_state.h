@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ struct FilmState {
     std::vector<LosslessPlane> planes;
     std::array<std::vector<double>, 2> shares; // SampleAllocation's, once adaptive sampling has decided
     std::vector<Vec3d> marked;                 // PilotVariance's, in the second half of the pilot of adaptive sampling
+    std::optional<PilotFigures> reuse_pilot;   // ReuseChoice's, if a pilot has decided
     RayCounts rays;
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
@@ -57,8 +59,9 @@ struct ResolvedFilm {
     std::vector<Vec3> error; // standard error of each pixel's mean, RGB; empty if not known
 };
 Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads = 0);
-// Merges the samples of two states of one image with adjacent sample ranges; neither may be adaptive. Errors as add_film; ranges
-// that overlap or leave a gap.
+// Merges the samples of two states of one image with adjacent sample ranges; neither may be adaptive. If pilots decided differently
+// about path reuse, which only happens between versions of the program, the sum is unbiased and continues as the first range.
+// Errors as add_film; ranges that overlap or leave a gap.
 Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings);
 // Scales each light group by its factor, as if rendered so from the first sample.
 void scale_groups(FilmState& state, std::span<const Vec3> factors);

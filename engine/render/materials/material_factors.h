@@ -21,6 +21,14 @@ inline bool transmits(const Material& m) { return !m.unlit && m.transmission > 0
 inline bool is_translucent(const Material& m) { return !m.unlit && m.diffuse_transmission > 0; }
 inline bool is_thin(const Material& m) { return !(m.thickness > 0); }
 
+// True if the material may be Lambertian, and not black, somewhere: no factor that a texture cannot set to zero gives it another
+// lobe.
+inline bool may_be_lambertian(const Material& m) {
+    const auto vanishes = [](float factor, const TextureRef& texture) { return !(factor > 0) || texture.texture; };
+    return !m.unlit && max_component(m.base_color) > 0 && vanishes(m.specular, m.specular_texture) &&
+           vanishes(m.metallic, m.metallic_roughness_texture) && vanishes(m.transmission, m.transmission_texture);
+}
+
 // Light travels inside it.
 inline bool is_solid(const Material& m) { return (transmits(m) || is_translucent(m)) && !is_thin(m); }
 // A thin wall that is smooth, or may be in places where a texture makes it so: light may pass it straight through.

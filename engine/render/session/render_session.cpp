@@ -296,6 +296,17 @@ void RenderSession::State::answer(RequestedFilm kept) {
 void RenderSession::State::render_batch() {
     const Work work = scheduler.next();
     const uint64_t mine = current->image;
+    const std::function<bool()> interrupted = [&] {
+        return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
+               wanted_image.load(std::memory_order_relaxed) != mine;
+    };
+    const std::function<bool()> wanted = [&] {
+        gate.wait_while_closed(interrupted);
+        return !quit.load(std::memory_order_relaxed) &&
+               (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
+    };
+    // Not within the time of the samples, from which that of the next image is predicted.
+    if (work.divider == 1 && work.first_sample > 0 && !renderer->decide(wanted)) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
     if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {
@@ -304,15 +315,7 @@ void RenderSession::State::render_batch() {
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
-    const std::function<bool()> interrupted = [&] {
-        return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
-               wanted_image.load(std::memory_order_relaxed) != mine;
-    };
-    const bool done = renderer->render(work.first_sample, work.count, [&] {
-        gate.wait_while_closed(interrupted);
-        return !quit.load(std::memory_order_relaxed) &&
-               (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
-    });
+    const bool done = renderer->render(work.first_sample, work.count, wanted);
     if (!done) return;
     const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);

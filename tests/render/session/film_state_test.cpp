@@ -1,6 +1,7 @@
 // Film states: a render continued from one is bit-identical to an uninterrupted render, in every plane.
 #include "render/film/film_state.h"
 #include "render/session/render_session.h"
+#include "scene/reuse_setting.h"
 
 #include "tests/render/session/recording_session.h"
 #include "tests/support/pictures.h"
@@ -71,6 +72,14 @@ TEST(FilmState, ContinuesLikeAnUninterruptedRender) {
     expect_seamless(p, 8, 20);
     p.render.clamp = {};
     p.render.reuse = 4;
+    expect_seamless(p, 5, 12);
+    p.render.reuse = reuse_auto;
+    for (const auto& [id, material] : p.scene.materials.entries()) {
+        Material diffuse = material;
+        diffuse.specular = 0;
+        p.scene.materials.set(id, diffuse);
+    }
+    expect_seamless(p, 1, 12);
     expect_seamless(p, 5, 12);
 }
 

@@ -1,6 +1,7 @@
 // The session as the window uses it. Tests rely on the order of announcements, never on durations.
 #include "render/session/render_session.h"
 
+#include "scene/reuse_setting.h"
 #include "tests/render/session/recording_session.h"
 #include "tests/render/session/rich_project.h"
 #include "tests/support/eventually.h"
@@ -132,6 +133,29 @@ TEST(RenderSession, ErrorsStateTheirSampleCount) {
     }
     EXPECT_EQ(frames.back()->error_samples, 64) << "the last frame is always estimated";
     EXPECT_EQ(frames.back()->error.relmse, fresh(project).error.relmse);
+}
+
+// The first image of an edit does not wait for the pilot, and the rest is as without a window.
+TEST(RenderSession, PilotOfPathReuseRunsAfterTheFirstSample) {
+    Project project = small_project(64, 48, 8);
+    project.render.reuse = reuse_auto;
+    for (const auto& [id, material] : test::sample_project().project.scene.materials.entries()) {
+        Material diffuse = material;
+        diffuse.specular = 0;
+        project.scene.materials.set(id, diffuse);
+    }
+    RecordingSession session;
+    submit(session, 1, project);
+    session.wait_for(1, State::complete);
+    session.shut_down();
+    const auto measured = [](const Frame& frame) {
+        return std::ranges::any_of(*frame.feature_report, [](const FeatureUse& use) { return use.pilot.has_value(); });
+    };
+    const std::vector<FramePtr> frames = session.frames();
+    EXPECT_EQ(frames.front()->samples, 1);
+    EXPECT_FALSE(measured(*frames.front()));
+    EXPECT_TRUE(measured(*frames.back()));
+    EXPECT_TRUE(same_picture(*frames.back(), fresh(project)));
 }
 
 TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {

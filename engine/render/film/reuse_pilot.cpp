@@ -1,0 +1,138 @@
+#include "render/film/reuse_pilot.h"
+
+#include "render/bvh/small_scene.h"
+#include "render/integrator/reuse_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr uint32_t pilot_seed = 0x9110737e;  // any; it only has to differ from those of pictures
+constexpr int tile_side = 8;                 // small, so that there are many; a whole block of groups
+constexpr int samples = 8;                   // of each pixel, both halves together
+constexpr int min_tiles = 8, max_tiles = 64; // of the pilot, if the film has as many;
+constexpr int film_tiles_per_tile = 16;      // between these, one for so many tiles of the film
+constexpr double dark_squared = 0.01;        // as in relmse
+
+// Usual time of parts of the work, relative to a camera or bounce ray with its shading, of 0.1 us.
+constexpr double shadow_ray_cost = 0.3, connection_cost = 0.5;
+constexpr double sharing_cost = 0.25;     // per camera path
+constexpr double small_scene_cost = 0.65; // factor on paths where no BVH is needed (small_scene.h)
+
+// Tiles spread over the film by the R2 sequence (Roberts 2018), whatever its aspect ratio.
+std::vector<TileJob> pilot_tiles(int width, int height) {
+    const int across = (width + tile_side - 1) / tile_side, down = (height + tile_side - 1) / tile_side, all = across * down;
+    const size_t count = size_t(std::min(all, std::clamp(all / film_tiles_per_tile, min_tiles, max_tiles)));
+    const auto along = [](int k, double step, int tiles) {
+        const double x = 0.5 + k * step;
+        return std::min(int((x - std::floor(x)) * tiles), tiles - 1);
+    };
+    std::set<std::pair<int, int>> places;
+    for (int k = 0; places.size() < count; ++k) places.emplace(along(k, 0.5698402909980532, down), along(k, 0.7548776662466927, across));
+    std::vector<TileJob> tiles;
+    for (const auto& [row, column] : places) {
+        const int x = column * tile_side, y = row * tile_side;
+        tiles.push_back({.x = x,
+                         .y = y,
+                         .width = std::min(tile_side, width - x),
+                         .height = std::min(tile_side, height - y),
+                         .first_sample = 0,
+                         .samples = samples});
+    }
+    return tiles;
+}
+
+// A tile rendered in one way.
+struct Variant {
+    std::vector<Vec3d> means; // of the halves of each pixel, adjacent
+    int64_t rays = 0, shadow_rays = 0, camera_rays = 0;
+};
+
+Variant render_variant(const KernelContext& context, const Kernel& kernel, const TileJob& tile, TileScratch& scratch) {
+    scratch.camera_rays = scratch.bounce_rays = scratch.shadow_rays = 0;
+    kernel.render(context, tile, scratch);
+    Variant v;
+    v.camera_rays = std::exchange(scratch.camera_rays, 0);
+    v.rays = v.camera_rays + std::exchange(scratch.bounce_rays, 0);
+    v.shadow_rays = std::exchange(scratch.shadow_rays, 0);
+    v.means.assign(2 * size_t(tile.width) * size_t(tile.height), Vec3d{0, 0, 0});
+    for (int slot = 0; slot < tile.paths(); ++slot) {
+        const Vec3d radiance{scratch.r[slot], scratch.g[slot], scratch.b[slot]};
+        const bool valid = std::isfinite(radiance.x + radiance.y + radiance.z);
+        Vec3d& mean = v.means[2 * size_t(slot / samples) + size_t(slot % 2)];
+        if (valid) mean = mean + radiance * (2.0 / samples);
+    }
+    return v;
+}
+
+// Sums over pixels and channels of squared errors, and the work.
+struct Sums {
+    double mse = 0, relmse = 0, work = 0;
+    Sums& operator+=(const Sums& more) {
+        mse += more.mse;
+        relmse += more.relmse;
+        work += more.work;
+        return *this;
+    }
+};
+struct Both {
+    Sums apart, shared;
+};
+
+Sums sums_of(const Variant& v, const Vec3d& mean) {
+    Sums sums;
+    for (size_t i = 0; i < v.means.size(); i += 2) {
+        const Vec3d d = v.means[i] - v.means[i + 1];
+        const auto relative = [](double difference, double about) { return difference * difference / (about * about + dark_squared); };
+        sums.mse += dot(d, d);
+        sums.relmse += relative(d.x, mean.x) + relative(d.y, mean.y) + relative(d.z, mean.z);
+    }
+    return sums;
+}
+
+Both compare(const Variant& apart, const Variant& shared, double ray_cost) {
+    Vec3d sum{0, 0, 0};
+    for (const Variant* v : {&apart, &shared})
+        for (const Vec3d& mean : v->means) sum = sum + mean;
+    const Vec3d mean = sum * (0.5 / double(apart.means.size()));
+    Both both{sums_of(apart, mean), sums_of(shared, mean)};
+    both.apart.work = ray_cost * (double(apart.rays) + shadow_ray_cost * double(apart.shadow_rays));
+    both.shared.work =
+        both.apart.work + connection_cost * double(shared.shadow_rays - apart.shadow_rays) + sharing_cost * double(shared.camera_rays);
+    return both;
+}
+
+} // namespace
+
+std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, int group_size, const Workers& workers,
+                                               std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
+    KernelContext apart = context;
+    apart.seed = pilot_seed;
+    apart.settings.reuse = {};
+    KernelContext shared = apart;
+    shared.settings.reuse = reuse_groups(group_size, tile_side, tile_side);
+    const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
+    const double ray_cost = context.accel->small_scene() ? small_scene_cost : 1;
+    std::vector<Both> measured(tiles.size());
+    const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
+        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+        const TileJob& tile = tiles[size_t(i)];
+        const Variant without = render_variant(apart, kernel, tile, *scratch[worker]);
+        measured[size_t(i)] = compare(without, render_variant(shared, kernel, tile, *scratch[worker]), ray_cost);
+    });
+    if (!all) return std::nullopt;
+    Both sum;
+    for (const Both& tile : measured) {
+        sum.apart += tile.apart;
+        sum.shared += tile.shared;
+    }
+    const auto ratio = [](double with, double without) { return with > 0 && without > 0 ? with / without : 1.0; };
+    return PilotFigures{ratio(sum.shared.mse, sum.apart.mse), ratio(sum.shared.relmse, sum.apart.relmse),
+                        ratio(sum.shared.work, sum.apart.work)};
+}
+
+} // namespace blush
