@@ -25,6 +25,7 @@ struct Options {
     double longest_seconds = 10;        // after an edit
     std::string only;                   // part of the names of the scenes to measure
     std::filesystem::path scene_folder; // of the peer comparison; empty: not given
+    std::string against;                // another build of blush, which whole processes are compared with; empty: none
     bool quick = false;                 // for testing the benchmark, not for figures
 };
 
