@@ -160,7 +160,7 @@ Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<Sta
 Renderer::~Renderer() = default;
 
 bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene) {
-    Scene now_expanded = expand_area_lights(whole, &meshes);
+    Scene now_expanded = expand_area_lights(whole, &meshes, &workers);
     const UpdatePlan todo = expanded ? plan(diff(*expanded, settings, now_expanded, now)) : full_plan();
     groups = std::move(groups_of_scene);
     mixing = groups ? mixing_of(*groups, whole).value() : Mixing{};

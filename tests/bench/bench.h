@@ -27,6 +27,7 @@ struct Options {
     std::vector<std::filesystem::path> peer_pictures; // JSON of another renderer's pictures, for the case "quality"
     std::string only;                                 // part of the names of the scenes to measure
     std::filesystem::path scene_folder;               // of the peer comparison; empty: not given
+    std::string against;                              // another build of blush, which whole processes are compared with; empty: none
     bool quick = false;                               // for testing the benchmark, not for figures
 };
 

@@ -35,8 +35,10 @@ constexpr Case cases[]{
     {{"light_edits", "Time from an edit of a light to the first image, beside one mesh, a million copies of it, emissive triangles"},
      run_light_edits},
     {{"mix", "Light groups: time, cost, memory"}, run_mix},
-    {{"big", "Time to the first image, and memory, of a million and ten million triangles and a million instances"}, run_big_scenes},
-    {{"textures", "Loading 64 textures; cost and benefit of filtering"}, run_textures},
+    {{"big",
+      "Time to the first image, and memory, of a million and ten million triangles, a million instances, 2000 meshes with materials"},
+     run_big_scenes},
+    {{"textures", "Loading 64 textures and an environment map; cost and benefit of filtering"}, run_textures},
     {{"time", "Time from a step of the time slider to the first image"}, run_time_slider},
     {{"pictures", "FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling"}, run_shown_pictures},
     {{"quality", "FLIP and relMSE of what is on the screen at times after an edit, raw and denoised"}, run_quality},
@@ -112,6 +114,7 @@ int run(int argc, char** argv) {
         ->check(CLI::ExistingFile);
     app.add_option("--plot", plot, "SVG file for the chart of the case \"quality\"");
     app.add_option("--from", earlier, "JSON of an earlier run, to print or plot instead of measuring");
+    app.add_option("--against", options.against, "Another build of blush, run in turn with this one in the cases \"big\" and \"textures\"");
     app.add_flag("--quick", options.quick, "Few rounds: for testing the benchmark, not for figures");
     try {
         app.parse(argc, argv);

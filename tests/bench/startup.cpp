@@ -1,16 +1,14 @@
 // Time to the first coarse image: the Cornell box as shipped, and with textures, a sky and
 // a view transform. Unused features must cost nothing. CPU seconds of all cores, in turn:
 // of the engine alone, from an imported scene on, and of the program, from start to end.
-#include "tests/bench/bench.h"
+#include "tests/bench/big/whole_process.h"
 
 #include "color/color_management.h"
 #include "io/image/image_io.h"
 #include "render/renderer.h"
-#include "tests/support/process.h"
 
 #include <algorithm>
 #include <fstream>
-#include <sys/resource.h>
 
 namespace blush::bench {
 namespace {
@@ -106,13 +104,6 @@ Result<void> write_everything(const std::filesystem::path& plain, const test::Te
     const std::vector<float> values = speckles(sky_width, sky_height);
     for (size_t i = 0; i < values.size(); ++i) sky.channels[i % 3].values.push_back(values[i]);
     return write_exr(folder / "sky.exr", sky);
-}
-
-double children_core_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_CHILDREN, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 // Runs `blush render` with these arguments; negative if it failed.

@@ -1,5 +1,5 @@
-// Textures: time and memory to load 64 images of 2048 x 2048 pixels, and the cost and benefit of filtering.
-#include "tests/bench/bench.h"
+// Textures: time and memory to load 64 images of 2048 x 2048 pixels or an environment map, and the cost and benefit of filtering.
+#include "tests/bench/big/whole_process.h"
 #include "tests/bench/machine.h"
 
 #include "core/files.h"
@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int texture_count = 64, texture_side = 2048;
 
-// Gradients with noise, like photographs; all different. Every other one is a JPEG.
+// Gradients with noise, like photographs; all different.
 void write_texture(const std::filesystem::path& file, int index) {
     std::mt19937 random{uint32_t(index)};
     std::vector<float> rgb;
@@ -34,8 +35,8 @@ void write_texture(const std::filesystem::path& file, int index) {
     if (const auto ok = write_display_image(file, texture_side, texture_side, rgb); !ok) throw std::runtime_error(ok.error().text());
 }
 
-// One square per texture.
-void write_scene(const std::filesystem::path& file) {
+// One square per texture. `format`: file extension of the images.
+void write_scene(const std::filesystem::path& file, const char* format) {
     const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* texture coordinates */ 0, 1, 1, 1, 0, 0, 1, 0};
     const auto* bytes = reinterpret_cast<const uint8_t*>(square.data());
     if (const auto ok = write_file(file.parent_path() / "square.bin", {bytes, square.size() * sizeof(float)}); !ok)
@@ -47,7 +48,7 @@ void write_scene(const std::filesystem::path& file) {
                {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}},
                 {{"bufferView", 1}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}}}}};
     for (int i = 0; i < texture_count; ++i) {
-        const std::string name = fmt::format("{}.{}", i, i % 2 ? "jpg" : "png");
+        const std::string name = fmt::format("{}.{}", i, format);
         write_texture(file.parent_path() / name, i);
         gltf["images"].push_back({{"uri", name}});
         gltf["textures"].push_back({{"source", i}});
@@ -61,17 +62,16 @@ void write_scene(const std::filesystem::path& file) {
         throw std::runtime_error(ok.error().text());
 }
 
-Json measure_loading(const Options& options) {
-    const auto folder =
-        std::filesystem::temp_directory_path() / fmt::format("blush_bench_textures_{}", Clock::now().time_since_epoch().count());
-    std::filesystem::create_directory(folder);
-    write_scene(folder / "scene.gltf");
+Json measure_loading(const char* format, const Options& options) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "scene.gltf";
+    write_scene(file, format);
     std::vector<double> import_seconds, import_core_seconds, compile_seconds;
     double peak_mb = 0, decoded_mb = 0, compiled_mb = 0;
     for (int round = 0; round < std::min(options.rounds, 3); ++round) {
         const MemoryGrowth memory;
         std::optional<Result<ImportedScene>> imported;
-        const Cost cost = cost_of([&] { imported = import_gltf(folder / "scene.gltf"); });
+        const Cost cost = cost_of([&] { imported = import_gltf(file); });
         if (!*imported) throw std::runtime_error((*imported).error().text());
         import_seconds.push_back(cost.wall_seconds);
         import_core_seconds.push_back(cost.core_seconds);
@@ -82,15 +82,37 @@ Json measure_loading(const Options& options) {
         decoded_mb = 0;
         for (const auto& [id, texture] : (*imported)->scene.textures) decoded_mb += double(texture.image->bytes.size()) / 1e6;
     }
-    std::filesystem::remove_all(folder);
-    return {{"textures", texture_count},
+    return {{"format", format},
+            {"textures", texture_count},
             {"side", texture_side},
+            {"whole_process", measure_process({file}, folder, options)},
             {"import_seconds", rounded(median(import_seconds))},
             {"import_core_seconds", rounded(median(import_core_seconds))},
             {"compile_seconds", rounded(median(compile_seconds))},
             {"decoded_mb", rounded(decoded_mb)},
             {"compiled_mb", rounded(compiled_mb)},
             {"peak_mb", rounded(peak_mb)}};
+}
+
+// The Cornell box under a map of noise.
+Json measure_environment(const Options& options) {
+    const auto cornell = std::ranges::find(options.scenes, "cornell.gltf", &BenchScene::name);
+    if (cornell == options.scenes.end()) return nullptr;
+    constexpr int width = 4096, height = 2048;
+    const test::TemporaryFolder folder;
+    LayeredImage map{.width = width, .height = height, .channels = {}, .metadata = {}};
+    std::mt19937 random{1};
+    for (const char* name : {"R", "G", "B"}) {
+        std::vector<float> values(size_t(width) * height);
+        for (float& v : values) v = float(random() % 4096) / 4096;
+        map.channels.push_back({name, std::move(values)});
+    }
+    const std::string file = folder / "map.exr";
+    if (const auto written = write_exr(file, map); !written) return {{"failed", written.error().text()}};
+    return {{"width", width},
+            {"height", height},
+            {"whole_process", measure_process({cornell->file, "--env", file}, folder, options)},
+            {"without", measure_process({cornell->file}, folder, options)}};
 }
 
 // A room seen from inside, whose six sides have textures with squares of one metre.
@@ -139,7 +161,8 @@ Json measure_filtering(const char* name, const Scene& scene, const Options& opti
 } // namespace
 
 Json run_textures(const Options& options) {
-    return {{"loading", measure_loading(options)},
+    return {{"loading", {measure_loading("png", options), measure_loading("jpg", options)}},
+            {"environment", measure_environment(options)},
             {"filtering",
              {measure_filtering("near: texels are magnified", textured_room(1), options),
               measure_filtering("middle: a texel is a pixel", textured_room(30), options),

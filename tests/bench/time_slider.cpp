@@ -3,8 +3,13 @@
 #include "tests/bench/latency_probe.h"
 #include "tests/bench/net.h"
 
+#include "core/parallel.h"
+#include "render/bvh/accel.h"
+#include "scene/animation/deform.h"
+#include "scene/animation/posed_scene.h"
 #include "scene/document/scene_selection.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace blush::bench {
@@ -96,12 +101,38 @@ Json measure(const Scene& scene, const Options& options) {
     return figures_of(responses);
 }
 
+// Parts of a step of a skin: all of its vertices, and the BVH of its triangles.
+Json skin_parts(uint32_t n, const Options& options) {
+    Scene scene = skinned_net(n);
+    scene = with_pose_applied(with_scene_selection(scene, {.clip = scene.clips.begin()->id, .seconds = 1}));
+    const auto skinned = std::ranges::find_if(scene.nodes, [](const auto& entry) { return bool(entry.value.skin); });
+    WorldTransforms placements(scene);
+    const Deformation bend = deformation_of(scene, placements, skinned->id, skinned->value).value();
+    const GeometryPtr rest = scene.meshes.find(skinned->value.mesh)->parts[0].geometry;
+    const Workers one(1), all(options.threads);
+    Accel accel;
+    std::vector<double> on_one, on_all, bvh;
+    for (int round = 0; round < options.rounds; ++round) {
+        on_one.push_back(cost_of([&] { deformed(*rest, bend, &one); }).wall_seconds);
+        GeometryPtr bent;
+        on_all.push_back(cost_of([&] { bent = deformed(*rest, bend, &all); }).wall_seconds);
+        AccelScene triangles;
+        triangles.flat.push_back(
+            {bent->serial, bent, bent->positions.data(), bent->positions.size(), bent->indices.data(), bent->triangle_count()});
+        bvh.push_back(cost_of([&] { accel.commit(triangles, nullptr, all); }).wall_seconds);
+    }
+    return {{"vertices_one_thread_ms", rounded(1e3 * median(on_one))},
+            {"vertices_ms", rounded(1e3 * median(on_all))},
+            {"bvh_ms", rounded(1e3 * median(bvh))}};
+}
+
 } // namespace
 
 Json run_time_slider(const Options& options) {
     return {{"rigid_nodes_1000", measure(rigid_nodes(1000), options)},
             {"skinned_100k", measure(skinned_net(224), options)},
             {"skinned_1m", measure(skinned_net(708), options)},
+            {"skinned_1m_parts", skin_parts(708, options)},
             {"still_1m_and_one_node", measure(still_but_one(708), options)}};
 }
 

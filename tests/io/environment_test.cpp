@@ -37,6 +37,24 @@ TEST(EnvironmentImage, GreyBecomesRgbAndInvalidValuesAreKept) {
     }
 }
 
+TEST(EnvironmentImage, IsReadOnceWhileItIsInUse) {
+    const TempFolder folder;
+    const std::vector<float> dark(3, 0.f), bright(3, 1.f);
+    ASSERT_TRUE(write_display_image(folder / "a.png", 1, 1, dark));
+    Result<ImagePtr> first = read_environment_image(folder / "a.png");
+    ASSERT_TRUE(first);
+    EXPECT_EQ(*read_environment_image(folder / "a.png"), *first);
+    ASSERT_TRUE(write_display_image(folder / "a.png", 1, 1, bright, {{"longer", "file"}}));
+    const auto changed = read_environment_image(folder / "a.png");
+    ASSERT_TRUE(changed);
+    EXPECT_EQ((*changed)->floats[0], 1) << "the file is another one";
+    const uint64_t serial = (*changed)->serial;
+    first = Error{};
+    EXPECT_EQ((*read_environment_image(folder / "a.png"))->serial, serial);
+    std::filesystem::remove(folder / "a.png");
+    EXPECT_FALSE(read_environment_image(folder / "a.png"));
+}
+
 TEST(EnvironmentImage, MissingFilesAreErrors) { EXPECT_FALSE(read_environment_image("none.exr")); }
 
 } // namespace

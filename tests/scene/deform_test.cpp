@@ -1,5 +1,6 @@
 // Morphing and skinning against positions computed by hand.
 #include "core/math.h"
+#include "core/parallel.h"
 #include "scene/affine.h"
 #include "scene/animation/deform.h"
 #include "scene/animation/pose.h"
@@ -168,6 +169,43 @@ TEST(Deformation, NonFiniteVerticesKeepTheRestPose) {
     huge->targets = {far};
     strip.scene.meshes.set(strip.scene.nodes.find(strip.body)->mesh, {"Strip", {{huge, {}}}});
     for (const Vec3d& p : strip.positions()) EXPECT_LE(std::abs(p.x), 0.5);
+}
+
+// A mesh of many ranges of vertices, all of which move.
+TEST(Deformation, IsTheSameForAnyNumberOfThreads) {
+    constexpr size_t count = 50001;
+    Geometry g;
+    auto target = std::make_shared<MorphTarget>();
+    for (size_t i = 0; i < count; ++i) {
+        const float t = float(i) / float(count);
+        g.positions.push_back({std::sin(40 * t), t, std::cos(70 * t)});
+        g.normals.push_back({std::sin(9 * t), std::cos(9 * t), 0});
+        g.tangents.push_back({0, 0, 1, i % 2 ? 1.f : -1.f});
+        g.indices.push_back(uint32_t(i));
+        target->positions.push_back({t, 1 - t, 0.3f});
+        target->normals.push_back({0, t, t});
+        target->tangents.push_back({t, 0, 0});
+        g.influences.insert(g.influences.end(), {{0, 1 - t}, {1, t}});
+    }
+    g.targets.push_back(target);
+    Deformation bend;
+    bend.weights = {0.7f};
+    bend.joints = {Affined{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {1, 2, 3}}, Affined{{1, 0, 0.5}, {0, 2, 0}, {0, 0, 1}, {0, 0, 1}}};
+    for (const bool flat : {false, true}) {
+        g.flat = flat;
+        const GeometryPtr alone = deformed(g, bend);
+        EXPECT_NE(alone->positions.back(), g.positions.back());
+        EXPECT_NE(alone->normals.back(), g.normals.back());
+        EXPECT_NE(alone->tangents.back(), g.tangents.back());
+        for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+            const Workers workers(threads);
+            const GeometryPtr shared = deformed(g, bend, &workers);
+            EXPECT_EQ(shared->positions, alone->positions) << threads;
+            EXPECT_EQ(shared->normals, alone->normals) << threads;
+            EXPECT_EQ(shared->tangents, alone->tangents) << threads;
+            EXPECT_EQ(shared->indices, g.indices);
+        }
+    }
 }
 
 TEST(Deformation, MissingJointsAreHandled) {

@@ -1,4 +1,5 @@
 // The environment table of images with bad texels or of the wrong shape.
+#include "core/parallel.h"
 #include "render/lights/environment_table.h"
 #include "tests/shading/tables.h"
 
@@ -33,6 +34,33 @@ TEST(EnvironmentTable, ReadsTheFirstThreeOfFourChannels) {
     float next = 0;
     e.image = make_float_image(2, 1, 4, [&] { return next++; });
     EXPECT_EQ(build_environment_table(e).texels, (std::vector<float>{0, 1, 2, 4, 5, 6}));
+}
+
+TEST(EnvironmentTable, IsTheSameForAnyNumberOfThreads) {
+    Random random(21);
+    for (const int channels : {3, 4})
+        for (const bool has_bad_texel : {false, true}) {
+            Environment e;
+            e.kind = Environment::Kind::image;
+            size_t next = 0;
+            e.image = make_float_image(67, 45, channels, [&] { return has_bad_texel && next++ == 1000 ? -1.f : random.unit(); });
+            for (const EnvironmentSampling sampling : {EnvironmentSampling::full, EnvironmentSampling::compensated}) {
+                const EnvironmentTable alone = build_environment_table(e, sampling);
+                EXPECT_EQ(alone.image == e.image, channels == 3 && !has_bad_texel) << "read in place";
+                for (const unsigned threads : {1u, 2u, 5u}) {
+                    const Workers workers(threads);
+                    const EnvironmentTable shared = build_environment_table(e, sampling, &workers);
+                    EXPECT_EQ(shared.texels, alone.texels);
+                    EXPECT_EQ(shared.row_thresholds, alone.row_thresholds);
+                    EXPECT_EQ(shared.column_thresholds, alone.column_thresholds);
+                    EXPECT_EQ(shared.column_guides, alone.column_guides);
+                    EXPECT_EQ(shared.texel_integral, alone.texel_integral);
+                    EXPECT_EQ(shared.sampled_share, alone.sampled_share);
+                    EXPECT_EQ(shared.warnings.size(), alone.warnings.size());
+                    EXPECT_TRUE(shared.emits_light);
+                }
+            }
+        }
 }
 
 TEST(EnvironmentTable, AnUnusableImageIsNoEnvironment) {

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,7 +102,7 @@ public:
         const double fx = p.x - column, fy = p.y - row;
         const auto texel = [&](int x, int y) {
             const int wrapped = (x + width) % width, clamped = std::clamp(y, 0, height - 1);
-            return double(table_.texels[3 * size_t(clamped * width + wrapped) + size_t(channel)]);
+            return double(table_.texel_data()[3 * size_t(clamped * width + wrapped) + size_t(channel)]);
         };
         const auto mixed = [&](int y) { return (1 - fx) * texel(column - 1, y) + fx * texel(column, y); };
         const double scale[3] = {table_.scale.x, table_.scale.y, table_.scale.z};
@@ -145,7 +146,8 @@ public:
     double row_error() const { return 4e-7 * height; }
     // A texel further along, radiance differs by the brightest texel at most.
     double radiance_error() const {
-        const double brightest = *std::ranges::max_element(table_.texels) * std::max({table_.scale.x, table_.scale.y, table_.scale.z});
+        const std::span texels(table_.texel_data(), 3 * size_t(table_.width) * size_t(table_.height));
+        const double brightest = *std::ranges::max_element(texels) * std::max({table_.scale.x, table_.scale.y, table_.scale.z});
         return brightest * (column_error() + row_error() + 16 * 0x1p-24);
     }
 

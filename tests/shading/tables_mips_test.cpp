@@ -1,4 +1,5 @@
 // Mip levels, and lookups with a footprint.
+#include "core/box_filter.h"
 #include "core/half.h"
 #include "core/srgb.h"
 #include "render/materials/material_table.h"
@@ -43,20 +44,26 @@ TEST(TextureMips, HaveTheMeanOfTheImageWhateverItsSize) {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (int c = 0; c < 4; ++c) sum[size_t(c)] += double(texel(x, y, c));
-        int count = 1;
         const auto read = [&](int y, float* rgba) {
             for (int i = 0; i < 4 * width; ++i) rgba[i] = texel(i / 4, y, i % 4);
         };
-        make_mips(width, height, read, [&](const TextureMip& mip) {
-            ++count;
+        std::vector<std::vector<float>> levels(size_t(mip_count(width, height)));
+        make_mips(width, height, read, [&](int level, int y, std::span<const float> rgba) {
+            std::vector<float>& mip = levels.at(size_t(level));
+            EXPECT_EQ(rgba.size(), 4 * size_t(halved(width, level)));
+            EXPECT_EQ(mip.size(), size_t(y) * rgba.size()) << "from the top";
+            mip.insert(mip.end(), rgba.begin(), rgba.end());
+        });
+        for (int level = 1; level < int(levels.size()); ++level) {
+            const std::vector<float>& mip = levels[size_t(level)];
+            const int texels = halved(width, level) * halved(height, level);
+            EXPECT_EQ(mip.size(), 4 * size_t(texels));
             std::array<double, 4> mip_sum{};
-            for (size_t i = 0; i < mip.rgba.size(); ++i) mip_sum[i % 4] += double(mip.rgba[i]);
+            for (size_t i = 0; i < mip.size(); ++i) mip_sum[i % 4] += double(mip[i]);
             // Six roundings for each halving of numbers below 17.
             for (size_t c = 0; c < 4; ++c)
-                EXPECT_NEAR(mip_sum[c] / (mip.width * mip.height), sum[c] / (width * height), 17 * 6 * count * 0x1p-24)
-                    << width << " x " << height;
-        });
-        EXPECT_EQ(count, mip_count(width, height));
+                EXPECT_NEAR(mip_sum[c] / texels, sum[c] / (width * height), 17 * 6 * (level + 1) * 0x1p-24) << width << " x " << height;
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 namespace blush {
@@ -15,9 +16,12 @@ inline bool is_complete_jpeg(std::span<const uint8_t> bytes) {
     constexpr uint8_t end_of_image = 0xd9, first_standalone = 0xd0, last_standalone = 0xd8, temporary = 0x01;
     size_t i = 0;
     while (i + 1 < bytes.size()) {
+        const void* found = std::memchr(bytes.data() + i, 0xff, bytes.size() - i - 1);
+        if (!found) return false;
+        i = size_t(static_cast<const uint8_t*>(found) - bytes.data());
         const uint8_t marker = bytes[i + 1];
         // Entropy-coded data: 0xff is followed by 0x00; 0xff may be repeated as fill.
-        if (bytes[i] != 0xff || marker == 0x00 || marker == 0xff) {
+        if (marker == 0x00 || marker == 0xff) {
             ++i;
             continue;
         }

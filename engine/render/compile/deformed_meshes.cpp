@@ -4,7 +4,7 @@
 
 namespace blush {
 
-void DeformedMeshes::bend(Scene& posed) {
+void DeformedMeshes::bend(Scene& posed, const Workers* workers) {
     std::map<Id<Node>, Entry> used;
     WorldTransforms placements(posed);
     const Table<Node> nodes = posed.nodes;
@@ -20,7 +20,8 @@ void DeformedMeshes::bend(Scene& posed) {
             entry = std::move(before->second);
         } else {
             entry.rest = mesh.parts;
-            for (const MeshPart& part : mesh.parts) entry.parts.push_back(part.geometry ? deformed(*part.geometry, *how) : nullptr);
+            for (const MeshPart& part : mesh.parts)
+                entry.parts.push_back(part.geometry ? deformed(*part.geometry, *how, workers) : nullptr);
             entry.bend = *std::move(how);
         }
         for (size_t i = 0; i < mesh.parts.size(); ++i) mesh.parts[i].geometry = entry.parts[i];

@@ -11,8 +11,9 @@ namespace blush {
 // Cache of the last deformed meshes, so that an unchanged deformation keeps its geometry and BVH.
 class DeformedMeshes {
 public:
-    // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/pose.h).
-    void bend(Scene& posed);
+    // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/pose.h). `workers` as in
+    // deformed().
+    void bend(Scene& posed, const Workers* workers);
 
 private:
     struct Entry {

@@ -70,12 +70,12 @@ AreaShape shape_of(const Light& light, int corners) {
 
 } // namespace
 
-Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known) {
+Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known, const Workers* workers) {
     Scene scene = with_solo_applied(with_pose_applied(whole));
     ExpandedMeshes none;
     ExpandedMeshes& meshes = known ? *known : none;
     meshes.tangents.provide(scene);
-    meshes.bent.bend(scene);
+    meshes.bent.bend(scene, workers);
     ExtendedTable<Node>::Records bodies;
     ExtendedTable<Mesh>::Records shapes;
     ExtendedTable<Material>::Records emitters;

@@ -43,7 +43,7 @@ struct ExpandedMeshes {
 // corners (light_limits.h). With the most corners, area sampling is identical and the flux differs from the circle's by less than
 // a millionth, and kernels need no special case. The mesh of a disabled light is black (is_disabled_mesh). Meshes that need tangents
 // get them (tangent_meshes.h), and deforming meshes are deformed (deformed_meshes.h). `known` caches meshes and tables between
-// calls.
-Scene expand_area_lights(const Scene& scene, ExpandedMeshes* known = nullptr);
+// calls. `workers` share the deformation of large meshes, which does not change the result.
+Scene expand_area_lights(const Scene& scene, ExpandedMeshes* known = nullptr, const Workers* workers = nullptr);
 
 } // namespace blush

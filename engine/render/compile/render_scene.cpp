@@ -107,7 +107,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     if (plan.lights) update_mesh_lights(scene, aim_ != aim_before, workers);
     const EnvironmentSampling sampling = environment_sampling(scene, settings);
     if (plan.environment_map || sampling != environment_.sampling || (plan.environment_parameters && needs_map != has_environment_map_))
-        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, sampling);
+        environment_ = build_environment_table(needs_map ? scene.environment : Environment{}, sampling, &workers);
     if (plan.environment_map || aim_ != aim_before || plan.environment_parameters)
         update_environment_parameters(environment_, scene.environment);
     has_environment_map_ = needs_map;

@@ -1,14 +1,17 @@
 #include "render/lights/environment_table.h"
 
+#include "core/parallel.h"
 #include "scene/affine.h"
 #include "scene/lights/sky_model.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -49,22 +52,48 @@ void warn(EnvironmentTable& table, std::string what, const std::string& file) {
     table.warnings.push_back({Diagnostic::Severity::warning, std::move(what), file.empty() ? "environment" : file});
 }
 
-void set_texels(EnvironmentTable& table, const Image& image, const std::string& file) {
+// Calls work(row) for each row, on all workers.
+void for_each_row(int rows, const Workers* workers, const std::function<void(int row)>& work) {
+    if (workers)
+        workers->for_each(rows, {}, [&](int64_t row, unsigned) { work(int(row)); });
+    else
+        for (int row = 0; row < rows; ++row) work(row);
+}
+
+bool is_usable(float value) { return value >= 0 && std::isfinite(value); }
+
+void set_texels(EnvironmentTable& table, const ImagePtr& source, const std::string& file, const Workers* workers) {
+    const Image& image = *source;
     table.width = image.width;
     table.height = image.height;
-    const size_t count = size_t(image.width) * size_t(image.height);
-    table.texels.resize(3 * count);
-    int64_t replaced = 0;
-    for (size_t i = 0; i < count; ++i) {
-        for (size_t c = 0; c < 3; ++c) {
-            const float value = image.floats[i * size_t(image.channels) + c];
-            const bool is_usable = value >= 0 && std::isfinite(value);
-            replaced += !is_usable;
-            table.texels[3 * i + c] = is_usable ? value : 0;
-            table.emits_light |= is_usable && value > 0;
-        }
+    const size_t width = size_t(image.width), channels = size_t(image.channels);
+    std::atomic<int64_t> replaced = 0;
+    std::atomic<bool> emits_light = false;
+    for_each_row(image.height, workers, [&](int row) {
+        const float* texel = &image.floats[size_t(row) * width * channels];
+        int64_t bad = 0;
+        bool bright = false;
+        for (size_t i = 0; i < width; ++i, texel += channels)
+            for (size_t c = 0; c < 3; ++c) {
+                bad += !is_usable(texel[c]);
+                bright |= is_usable(texel[c]) && texel[c] > 0;
+            }
+        replaced += bad;
+        if (bright) emits_light = true;
+    });
+    table.emits_light = emits_light;
+    if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced.load()), file);
+    if (replaced == 0 && channels == 3) {
+        table.image = source;
+        return;
     }
-    if (replaced > 0) warn(table, fmt::format("{} values are negative or not finite: read as 0", replaced), file);
+    table.texels.resize(3 * width * size_t(image.height));
+    for_each_row(image.height, workers, [&](int row) {
+        const float* from = &image.floats[size_t(row) * width * channels];
+        float* to = &table.texels[3 * size_t(row) * width];
+        for (size_t i = 0; i < width; ++i, from += channels, to += 3)
+            for (size_t c = 0; c < 3; ++c) to[c] = is_usable(from[c]) ? from[c] : 0;
+    });
 }
 
 void set_uniform_texel(EnvironmentTable& table, float value) {
@@ -109,8 +138,8 @@ struct BorderMeans {
     void read(const EnvironmentTable& table, int row) {
         const size_t width = size_t(table.width);
         const double lower_share = row_borders(row, table.height).lower_share(), upper_share = 1 - lower_share;
-        const float* upper = &table.texels[3 * width * size_t(std::max(row - 1, 0))];
-        const float* lower = &table.texels[3 * width * size_t(std::min(row, table.height - 1))];
+        const float* upper = table.texel_data() + 3 * width * size_t(std::max(row - 1, 0));
+        const float* lower = table.texel_data() + 3 * width * size_t(std::min(row, table.height - 1));
         luminances.resize(width);
         sum = {0, 0, 0};
         for (size_t i = 0; i < width; ++i) {
@@ -125,45 +154,49 @@ struct BorderMeans {
     double of_cell(size_t i) const { return 0.5 * (luminances[i == 0 ? luminances.size() - 1 : i - 1] + luminances[i]); }
 };
 
-// A cell's weight is the integral of the filtered map over it, or of the part above the map's mean.
-void build_importance(EnvironmentTable& table, EnvironmentSampling sampling) {
+// A cell's weight is the integral of the filtered map over it, or of the part above the map's mean. Rows are independent; their sums are
+// added in order.
+void build_importance(EnvironmentTable& table, EnvironmentSampling sampling, const Workers* workers) {
     const size_t width = size_t(table.width), row_count = size_t(table.height) + 1;
-    BorderMeans borders;
-    for (int row = 0; row < int(row_count); ++row) {
+    std::vector<Vec3d> row_integrals(row_count);
+    for_each_row(int(row_count), workers, [&](int row) {
+        BorderMeans borders;
         borders.read(table, row);
-        table.texel_integral = table.texel_integral + borders.sum * row_borders(row, table.height).cell_solid_angle(table.width);
-    }
+        row_integrals[size_t(row)] = borders.sum * row_borders(row, table.height).cell_solid_angle(table.width);
+    });
+    for (const Vec3d& integral : row_integrals) table.texel_integral = table.texel_integral + integral;
     const double total = dot(luminance_weights, table.texel_integral);
     const double mean = total / (4 * pi), left_out = covered_share(sampling) * mean;
-    double above_mean = 0;
 
-    table.rows.reserve(row_count);
-    table.column_thresholds.reserve(row_count * width);
+    table.rows.resize(row_count);
+    table.column_thresholds.resize(row_count * width);
     table.guide_bits = guide_bits_for(width);
-    table.column_guides.reserve(row_count * ((size_t(1) << table.guide_bits) + 1));
-    std::vector<double> row_weights, cell_weights(width);
-    row_weights.reserve(row_count);
-    for (int row = 0; row < int(row_count); ++row) {
+    const size_t guide_size = (size_t(1) << table.guide_bits) + 1;
+    table.column_guides.resize(row_count * guide_size);
+    std::vector<double> row_weights(row_count), rows_above(row_count);
+    for_each_row(int(row_count), workers, [&](int row) {
+        const auto r = size_t(row);
+        BorderMeans borders;
         borders.read(table, row);
+        std::vector<double> cell_weights(width);
         double above = 0;
         for (size_t i = 0; i < width; ++i) {
             cell_weights[i] = std::max(0.0, borders.of_cell(i) - left_out);
             above += std::max(0.0, borders.of_cell(i) - mean);
         }
         const std::vector<uint32_t> thresholds = make_thresholds(cell_weights);
-        table.column_thresholds.insert(table.column_thresholds.end(), thresholds.begin(), thresholds.end());
-        const std::vector<int32_t> guide = make_guide(thresholds, table.guide_bits);
-        table.column_guides.insert(table.column_guides.end(), guide.begin(), guide.end());
+        std::ranges::copy(thresholds, table.column_thresholds.begin() + std::ptrdiff_t(r * width));
+        std::ranges::copy(make_guide(thresholds, table.guide_bits), table.column_guides.begin() + std::ptrdiff_t(r * guide_size));
         const RowBorders ends = row_borders(row, table.height);
-        table.rows.push_back(row_record(ends, table.width));
-        row_weights.push_back(std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * ends.cell_solid_angle(table.width));
-        above_mean += above * ends.cell_solid_angle(table.width);
-    }
+        table.rows[r] = row_record(ends, table.width);
+        row_weights[r] = std::accumulate(cell_weights.begin(), cell_weights.end(), 0.0) * ends.cell_solid_angle(table.width);
+        rows_above[r] = above * ends.cell_solid_angle(table.width);
+    });
     table.row_thresholds = make_thresholds(row_weights);
     table.sampling = sampling;
     table.sampled_share = 1;
     if (sampling == EnvironmentSampling::full) return;
-    const double share = total > 0 ? above_mean / total : 0;
+    const double above_mean = std::accumulate(rows_above.begin(), rows_above.end(), 0.0), share = total > 0 ? above_mean / total : 0;
     table.sampled_share = share < min_sampled_share ? 0 : share;
     if (table.sampled_share > 0) return;
     table.row_thresholds = table.column_thresholds = {};
@@ -184,7 +217,7 @@ Vec3 environment_scale(const Environment& environment) {
 Vec3d EnvironmentTable::integral() const { return {scale.x * texel_integral.x, scale.y * texel_integral.y, scale.z * texel_integral.z}; }
 
 EnvironmentTables EnvironmentTable::tables() const {
-    return {texels.data(),
+    return {texel_data(),
             row_thresholds.data(),
             column_thresholds.data(),
             column_guides.data(),
@@ -198,22 +231,22 @@ EnvironmentTables EnvironmentTable::tables() const {
             lights_scene};
 }
 
-EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling) {
+EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling, const Workers* workers) {
     const auto begin = std::chrono::steady_clock::now();
     EnvironmentTable table;
     switch (environment.kind) {
     case Environment::Kind::none: set_uniform_texel(table, 0); break;
     case Environment::Kind::constant: set_uniform_texel(table, 1); break;
-    case Environment::Kind::sky: set_texels(table, *sky_image(environment.sky, sky_map_width, sky_map_height), {}); break;
+    case Environment::Kind::sky: set_texels(table, sky_image(environment.sky, sky_map_width, sky_map_height), {}, workers); break;
     case Environment::Kind::image:
         if (const std::string what = fault(environment.image.get()); what.empty()) {
-            set_texels(table, *environment.image, environment.file);
+            set_texels(table, environment.image, environment.file, workers);
         } else {
             warn(table, what + ": no environment", environment.file);
             set_uniform_texel(table, 0);
         }
     }
-    if (sampling != EnvironmentSampling::none) build_importance(table, sampling);
+    if (sampling != EnvironmentSampling::none) build_importance(table, sampling, workers);
     update_environment_parameters(table, environment);
     table.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return table;

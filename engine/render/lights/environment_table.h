@@ -10,6 +10,8 @@
 
 namespace blush {
 
+class Workers;
+
 // The directions that light sampling aims at. compensated: those where the map is brighter than its mean, with a density
 // proportional to the difference, because BSDF sampling covers the even part well: MIS compensation (Karlik et al. 2019, "MIS
 // Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 4.1). compensated_alone: less is left out,
@@ -20,7 +22,8 @@ enum class EnvironmentSampling { none, full, compensated, compensated_alone };
 struct EnvironmentTable {
     // Size of the image; a constant environment is one white texel, no environment is one black texel.
     int32_t width = 0, height = 0, guide_bits = 1;
-    std::vector<float> texels;
+    ImagePtr image;            // whose values are the texels; null if they had to be changed or copied
+    std::vector<float> texels; // else these
     std::vector<uint32_t> row_thresholds, column_thresholds;
     std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
@@ -38,6 +41,8 @@ struct EnvironmentTable {
 
     // RGB radiance of the filtered map integrated over the sphere, nits x sr: its weight in light selection.
     Vec3d integral() const;
+    // Three floats per texel.
+    const float* texel_data() const { return image ? image->floats.data() : texels.data(); }
     // Valid until the table changes.
     EnvironmentTables tables() const;
 };
@@ -47,8 +52,10 @@ struct EnvironmentTable {
 constexpr int sky_map_width = 512, sky_map_height = 256;
 
 // Warns if texels are negative or not finite (they become 0) or if the image is unusable (no environment). Without sampling
-// it has no importance map: it can be evaluated, but directions cannot be sampled and have no pdf.
-EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling = EnvironmentSampling::full);
+// it has no importance map: it can be evaluated, but directions cannot be sampled and have no pdf. `workers` share the rows; the
+// table is the same for any number of threads. Null: single-threaded.
+EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling = EnvironmentSampling::full,
+                                         const Workers* workers = nullptr);
 // True if colour and intensity allow light; the image may still be black.
 bool gives_light(const Environment& environment);
 // Radiance in nits of a texel of 1.

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -22,10 +23,20 @@ namespace {
 // Indices are 32-bit.
 constexpr size_t max_byte_texels = (size_t(1) << 31) - 1, max_half_texels = (size_t(1) << 30) - 1, max_float_texels = (size_t(1) << 29) - 1;
 
-const std::array<float, 256>& srgb_table() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> t;
+// Linear values of the 256 bytes.
+using ByteValues = std::array<float, 256>;
+const ByteValues& srgb_table() {
+    static const ByteValues table = [] {
+        ByteValues t;
         for (int i = 0; i < 256; ++i) t[size_t(i)] = float(linear_from_srgb(i / 255.0));
+        return t;
+    }();
+    return table;
+}
+const ByteValues& linear_table() {
+    static const ByteValues table = [] {
+        ByteValues t;
+        for (int i = 0; i < 256; ++i) t[size_t(i)] = float(i) / 255;
         return t;
     }();
     return table;
@@ -148,45 +159,53 @@ private:
     // Thread-safe: no two entries write the same texels.
     void fill(Placed& placed) {
         const Image& image = *placed.image;
-        if (image.bytes.empty())
-            fill_floats(placed);
-        else if (placed.owns_base)
-            fill_bytes(image, table_.rgba8.data() + placed.base);
-        const bool is_color = placed.source->is_color;
+        const size_t row = size_t(image.width);
+        if (image.bytes.empty()) fill_floats(placed);
         const auto read = [&](int y, float* rgba) {
-            if (image.bytes.empty())
-                std::copy_n(table_.rgba32f.data() + 4 * (placed.base + size_t(y) * size_t(image.width)), 4 * image.width, rgba);
-            else
-                read_bytes(image, y, is_color, rgba);
+            const size_t at = placed.base + size_t(y) * row;
+            if (image.bytes.empty()) {
+                std::copy_n(table_.rgba32f.data() + 4 * at, 4 * row, rgba);
+                return;
+            }
+            if (placed.owns_base) fill_bytes(image, y, table_.rgba8.data() + at);
+            read_bytes(image, y, placed.source->is_color, rgba);
         };
-        size_t at = placed.mips;
-        make_mips(image.width, image.height, read, [&](const TextureMip& mip) {
+        std::vector<size_t> levels{placed.mips}; // offsets
+        for (int i = 1; i < mip_count(image.width, image.height); ++i)
+            levels.push_back(levels.back() + size_t(halved(image.width, i)) * size_t(halved(image.height, i)));
+        make_mips(image.width, image.height, read, [&](int level, int y, std::span<const float> rgba) {
+            const size_t at = levels[size_t(level) - 1] + size_t(y) * rgba.size() / 4;
             if (image.bytes.empty())
-                std::ranges::copy(mip.rgba, table_.rgba32f.begin() + std::ptrdiff_t(4 * at));
+                std::ranges::copy(rgba, table_.rgba32f.begin() + std::ptrdiff_t(4 * at));
             else
-                fill_halves(mip, table_.rgba16f.data() + 2 * at);
-            at += size_t(mip.width) * size_t(mip.height);
+                fill_halves(rgba, table_.rgba16f.data() + 2 * at);
         });
     }
 
-    static void fill_bytes(const Image& image, uint32_t* texels) {
-        const size_t channels = size_t(image.channels);
-        for (size_t i = 0; i < texel_count(image); ++i) {
-            const std::array<uint8_t, 4> c = expand<uint8_t>(&image.bytes[i * channels], image.channels, 255);
-            texels[i] = c[0] | uint32_t(c[1]) << 8 | uint32_t(c[2]) << 16 | uint32_t(c[3]) << 24;
+    static const uint8_t* row_of(const Image& image, int y) {
+        return &image.bytes[size_t(y) * size_t(image.width) * size_t(image.channels)];
+    }
+
+    static void fill_bytes(const Image& image, int y, uint32_t* texels) {
+        const uint8_t* texel = row_of(image, y);
+        for (int x = 0; x < image.width; ++x, texel += image.channels) {
+            const std::array<uint8_t, 4> c = expand<uint8_t>(texel, image.channels, 255);
+            texels[x] = c[0] | uint32_t(c[1]) << 8 | uint32_t(c[2]) << 16 | uint32_t(c[3]) << 24;
         }
     }
 
     static void read_bytes(const Image& image, int y, bool is_color, float* rgba) {
-        const uint8_t* row = &image.bytes[size_t(y) * size_t(image.width) * size_t(image.channels)];
-        for (int x = 0; x < image.width; ++x) {
-            const std::array<uint8_t, 4> c = expand<uint8_t>(row + x * image.channels, image.channels, 255);
-            for (size_t k = 0; k < 4; ++k) rgba[4 * x + int(k)] = is_color && k < 3 ? srgb_table()[c[k]] : float(c[k]) / 255;
+        const uint8_t* texel = row_of(image, y);
+        const ByteValues &color = is_color ? srgb_table() : linear_table(), &alpha = linear_table();
+        for (int x = 0; x < image.width; ++x, texel += image.channels, rgba += 4) {
+            const std::array<uint8_t, 4> c = expand<uint8_t>(texel, image.channels, 255);
+            for (size_t k = 0; k < 3; ++k) rgba[k] = color[c[k]];
+            rgba[3] = alpha[c[3]];
         }
     }
 
-    static void fill_halves(const TextureMip& mip, uint32_t* pairs) {
-        for (size_t i = 0; i < mip.rgba.size(); i += 2) *pairs++ = half_bits(mip.rgba[i]) | half_bits(mip.rgba[i + 1]) << 16;
+    static void fill_halves(std::span<const float> rgba, uint32_t* pairs) {
+        for (size_t i = 0; i < rgba.size() / 2; ++i) pairs[i] = half_bits(rgba[2 * i]) | half_bits(rgba[2 * i + 1]) << 16;
     }
 
     void fill_floats(Placed& placed) {

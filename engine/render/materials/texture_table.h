@@ -6,6 +6,7 @@
 #include "shading/texture.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,20 @@ struct TextureSource {
     bool operator==(const TextureSource&) const = default;
 };
 
+// Leaves new elements unset, for arrays that several threads fill.
+template <class T> struct UnsetAllocator : std::allocator<T> {
+    template <class U> struct rebind { using other = UnsetAllocator<U>; };
+    template <class U, class... Args> void construct(U* p, Args&&... args) {
+        if constexpr (sizeof...(Args) > 0) std::construct_at(p, std::forward<Args>(args)...);
+    }
+};
+
 struct TextureTable {
     std::vector<TextureSource> sources; // one per record
     std::vector<TextureRecord> records;
     std::vector<TextureLevel> levels;
-    std::vector<uint32_t> rgba8, rgba16f;
-    std::vector<float> rgba32f;
+    std::vector<uint32_t, UnsetAllocator<uint32_t>> rgba8, rgba16f;
+    std::vector<float, UnsetAllocator<float>> rgba32f;
     std::vector<Diagnostic> warnings;
     double seconds = 0; // build time
 

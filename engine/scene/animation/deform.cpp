@@ -1,33 +1,42 @@
 #include "scene/animation/deform.h"
 
 #include "core/math.h"
+#include "core/parallel.h"
 #include "scene/affine.h"
 #include "scene/animation/pose.h"
 #include "scene/geometry/arena_geometry.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace blush {
 namespace {
 
 bool is_zero(float weight) { return weight == 0; }
 
-// Morphing: adds each target's offsets, scaled by its weight.
-void morph(std::vector<Vec3d>& vectors, const Geometry& g, const std::vector<float>& weights, std::vector<Vec3> MorphTarget::*offsets) {
-    for (size_t t = 0; t < std::min(g.targets.size(), weights.size()); ++t) {
-        const std::vector<Vec3>& by = (*g.targets[t]).*offsets;
-        if (is_zero(weights[t]) || by.size() != vectors.size()) continue;
-        for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = vectors[i] + to_double(by[i]) * double(weights[t]);
+// Morphing: adds each target's offset to the vector of a vertex, scaled by its weight.
+class Morph {
+public:
+    Morph(const Geometry& g, const std::vector<float>& weights, std::vector<Vec3> MorphTarget::*offsets, size_t vertices) {
+        for (size_t t = 0; t < std::min(g.targets.size(), weights.size()); ++t) {
+            const std::vector<Vec3>& by = (*g.targets[t]).*offsets;
+            if (!is_zero(weights[t]) && by.size() == vertices) terms_.push_back({by.data(), double(weights[t])});
+        }
     }
-}
+    Vec3d operator()(const Vec3& rest, size_t vertex) const {
+        Vec3d sum = to_double(rest);
+        for (const Term& term : terms_) sum = sum + to_double(term.offsets[vertex]) * term.weight;
+        return sum;
+    }
 
-std::vector<Vec3d> in_double(const GeometryArray<Vec3>& vectors) {
-    std::vector<Vec3d> result;
-    result.reserve(vectors.size());
-    for (const Vec3& v : vectors) result.push_back(to_double(v));
-    return result;
-}
+private:
+    struct Term {
+        const Vec3* offsets;
+        double weight;
+    };
+    std::vector<Term> terms_;
+};
 
 // Linear blend skinning: the joint matrices, weighted by their influences on the vertex.
 Affined blended(const Geometry& g, const Deformation& bend, size_t vertex) {
@@ -51,13 +60,57 @@ Vec3 unit(const Vec3d& v, const Vec3& otherwise) {
     return size > 0 && std::isfinite(size) ? to_float(v * (1 / size)) : otherwise;
 }
 
-// Face normals, for vertices that belong to one triangle each.
-void face_normals(Geometry& g) {
-    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
-        const Vec3d a = to_double(g.positions[g.indices[i]]);
-        const Vec3d n = cross(to_double(g.positions[g.indices[i + 1]]) - a, to_double(g.positions[g.indices[i + 2]]) - a);
-        for (size_t k = 0; k < 3; ++k) g.normals[g.indices[i + k]] = unit(n, g.normals[g.indices[i + k]]);
+// Deforms ranges of vertices, each independent of the others.
+class Deformer {
+public:
+    Deformer(const Geometry& rest, const Deformation& bend, Geometry& result)
+        : rest_(rest), bend_(bend), result_(result), positions_(rest, bend.weights, &MorphTarget::positions, rest.positions.size()),
+          normals_(rest, bend.weights, &MorphTarget::normals, rest.normals.size()),
+          tangents_(rest, bend.weights, &MorphTarget::tangents, rest.tangents.size()) {}
+
+    void vertices(size_t begin, size_t end) const {
+        for (size_t i = begin; i < end; ++i) {
+            Affined map;
+            if (!bend_.joints.empty()) map = rest_.influences.empty() ? bend_.rigid : blended(rest_, bend_, i);
+            Vec3 place = to_float(transform_point(map, positions_(rest_.positions[i], i)));
+            if (!finite(place)) place = to_float(transform_point(bend_.rigid, to_double(rest_.positions[i])));
+            result_.positions[i] = finite(place) ? place : Vec3{0, 0, 0};
+            if (!rest_.normals.empty()) {
+                const double sign = determinant(map) < 0 ? -1 : 1;
+                const Vec3d normal = normals_(rest_.normals[i], i);
+                result_.normals[i] = unit(transform_vector(cofactor(map), normal) * sign, rest_.normals[i]);
+            }
+            if (!rest_.tangents.empty()) {
+                const Vec4& old = rest_.tangents[i];
+                const Vec3 direction{old.x, old.y, old.z};
+                const Vec3 t = unit(transform_vector(map, tangents_(direction, i)), direction);
+                result_.tangents[i] = {t.x, t.y, t.z, old.w};
+            }
+        }
     }
+    // Face normals, for vertices that belong to one triangle each.
+    void face_normals(size_t first_triangle, size_t end) const {
+        Geometry& g = result_;
+        for (size_t i = 3 * first_triangle; i < 3 * end; i += 3) {
+            const Vec3d a = to_double(g.positions[g.indices[i]]);
+            const Vec3d n = cross(to_double(g.positions[g.indices[i + 1]]) - a, to_double(g.positions[g.indices[i + 2]]) - a);
+            for (size_t k = 0; k < 3; ++k) g.normals[g.indices[i + k]] = unit(n, g.normals[g.indices[i + k]]);
+        }
+    }
+
+private:
+    const Geometry& rest_;
+    const Deformation& bend_;
+    Geometry& result_;
+    Morph positions_, normals_, tangents_;
+};
+
+// Calls work(begin, end) for ranges that cover [0, count), on all workers.
+void in_ranges(size_t count, const Workers* workers, const std::function<void(size_t begin, size_t end)>& work) {
+    constexpr size_t range = 4096;
+    if (!workers || count <= range) return work(0, count);
+    workers->for_each(int64_t((count + range - 1) / range), {},
+                      [&](int64_t i, unsigned) { work(size_t(i) * range, std::min(count, size_t(i + 1) * range)); });
 }
 
 // From mesh space to the space around the first joint.
@@ -97,35 +150,15 @@ std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& p
     return bend;
 }
 
-GeometryPtr deformed(const Geometry& rest, const Deformation& bend) {
-    auto result = std::make_shared<Geometry>(rest);
+GeometryPtr deformed(const Geometry& rest, const Deformation& bend, const Workers* workers) {
+    auto result = std::make_shared<Geometry>();
     Geometry& g = *result;
-    g.serial = next_payload_serial();
-    g.targets.clear();
-    g.influences.clear();
-    std::vector<Vec3d> positions = in_double(rest.positions), normals = in_double(rest.normals), tangents;
-    for (const Vec4& t : rest.tangents) tangents.push_back({t.x, t.y, t.z});
-    morph(positions, rest, bend.weights, &MorphTarget::positions);
-    morph(normals, rest, bend.weights, &MorphTarget::normals);
-    morph(tangents, rest, bend.weights, &MorphTarget::tangents);
-    for (size_t i = 0; i < positions.size(); ++i) {
-        Affined map;
-        if (!bend.joints.empty()) map = rest.influences.empty() ? bend.rigid : blended(rest, bend, i);
-        Vec3 place = to_float(transform_point(map, positions[i]));
-        if (!finite(place)) place = to_float(transform_point(bend.rigid, to_double(rest.positions[i])));
-        g.positions[i] = finite(place) ? place : Vec3{0, 0, 0};
-        if (!normals.empty()) {
-            const double sign = determinant(map) < 0 ? -1 : 1;
-            g.normals[i] = unit(transform_vector(cofactor(map), normals[i]) * sign, rest.normals[i]);
-        }
-        if (!tangents.empty()) {
-            const Vec4& old = rest.tangents[i];
-            const Vec3 t = unit(transform_vector(map, tangents[i]), {old.x, old.y, old.z});
-            g.tangents[i] = {t.x, t.y, t.z, old.w};
-        }
-    }
-    if (g.flat) face_normals(g);
-    move_to_arena(g);
+    copy_arrays(rest, g);
+    g.generated_tangents = rest.generated_tangents;
+    g.flat = rest.flat;
+    const Deformer deformer(rest, bend, g);
+    in_ranges(g.positions.size(), workers, [&](size_t begin, size_t end) { deformer.vertices(begin, end); });
+    if (g.flat) in_ranges(g.triangle_count(), workers, [&](size_t begin, size_t end) { deformer.face_normals(begin, end); });
     return result;
 }
 

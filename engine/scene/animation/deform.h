@@ -9,6 +9,8 @@
 
 namespace blush {
 
+class Workers;
+
 // Deformation of a node's mesh: morph target weights and joint matrices. Equal values deform one geometry to equal vertices.
 // Deformed positions of a skinned mesh are relative to `origin`, along the world axes; of a mesh without skin they are in the
 // node's space.
@@ -22,8 +24,9 @@ struct Deformation {
 
 // Deformation of the node's mesh; none if the mesh is not deformed.
 std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node);
-// The deformed geometry. A vertex whose deformed position is not finite keeps its rest position.
-GeometryPtr deformed(const Geometry& geometry, const Deformation& bend);
+// The deformed geometry. A vertex whose deformed position is not finite keeps its rest position. `workers` share the vertices, which do
+// not depend on each other: the result is the same for any number of threads. Null: single-threaded.
+GeometryPtr deformed(const Geometry& geometry, const Deformation& bend, const Workers* workers = nullptr);
 
 // World transform of a mesh after this deformation.
 inline Affined world_from_deformed(const Deformation& bend, const Affined& world_from_node) {

@@ -19,29 +19,50 @@ template <class G, class Visit> bool all_attributes(G& g, const Visit& visit) {
     return good;
 }
 
-template <class T> void move_to(GeometryArray<T>& array, T* base, int64_t first) {
-    GeometryArray<T> placed(PlacedAllocator<T>(base + first, array.size()));
-    placed.reserve(array.size());
-    placed.assign(array.begin(), array.end());
-    array = std::move(placed);
+template <class T> GeometryArray<T> placed(const GeometryArray<T>& array, T* base, int64_t first) {
+    GeometryArray<T> copy(PlacedAllocator<T>(base + first, array.size()));
+    copy.reserve(array.size());
+    copy.assign(array.begin(), array.end());
+    return copy;
 }
 
 template <class T> T* base_of(const GeometryArray<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
 
+// Ranges for the arrays of a large mesh; none for a small one, or if the arena is full.
+std::optional<ArenaStorage> reserve_for(const Geometry& g) {
+    if (g.positions.size() < min_arena_vertices) return {};
+    if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return {};
+    ArenaStorage storage{reserve_arena_range(ArenaKind::vertices, g.positions.size()),
+                         reserve_arena_range(ArenaKind::indices, g.indices.size())};
+    return storage.vertices && storage.indices ? std::optional(std::move(storage)) : std::nullopt;
+}
+
 } // namespace
 
 void move_to_arena(Geometry& g) {
-    if (g.positions.size() < min_arena_vertices) return;
-    if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return;
-    ArenaRangePtr vertices = reserve_arena_range(ArenaKind::vertices, g.positions.size()),
-                  indices = reserve_arena_range(ArenaKind::indices, g.indices.size());
-    if (!vertices || !indices) return;
+    std::optional<ArenaStorage> storage = reserve_for(g);
+    if (!storage) return;
     all_attributes(g, [&](auto& array, Attribute attribute) {
-        move_to(array, base_of(array, attribute), vertices->first());
+        array = placed(array, base_of(array, attribute), storage->vertices->first());
         return true;
     });
-    move_to(g.indices, index_base(), indices->first());
-    g.storage = std::make_shared<const ArenaStorage>(ArenaStorage{std::move(vertices), std::move(indices)});
+    g.indices = placed(g.indices, index_base(), storage->indices->first());
+    g.storage = std::make_shared<const ArenaStorage>(*std::move(storage));
+}
+
+void copy_arrays(const Geometry& from, Geometry& to) {
+    std::optional<ArenaStorage> storage = reserve_for(from);
+    const auto copy = [&](const auto& array, Attribute attribute) {
+        return storage && !array.empty() ? placed(array, base_of(array, attribute), storage->vertices->first()) : array;
+    };
+    to.positions = copy(from.positions, Attribute::positions);
+    to.normals = copy(from.normals, Attribute::normals);
+    to.tangents = copy(from.tangents, Attribute::tangents);
+    to.colors = copy(from.colors, Attribute::colors);
+    to.uv.resize(from.uv.size());
+    for (size_t set = 0; set < from.uv.size(); ++set) to.uv[set] = copy(from.uv[set], uv_attribute_of(int(set)));
+    to.indices = storage ? placed(from.indices, index_base(), storage->indices->first()) : from.indices;
+    if (storage) to.storage = std::make_shared<const ArenaStorage>(*std::move(storage));
 }
 
 std::optional<ArenaOffsets> arena_offsets(const Geometry& g) {

@@ -14,6 +14,9 @@ constexpr size_t min_arena_vertices = size_t(1) << 14;
 // the arena is full.
 void move_to_arena(Geometry& geometry);
 
+// Copies vertices, their attributes and indices into a new geometry, large ones straight into the arena.
+void copy_arrays(const Geometry& from, Geometry& to);
+
 // Arena offsets, in elements: of the first vertex (the same in all vertex arrays) and of the first index.
 struct ArenaOffsets {
     int32_t first_vertex = 0, first_index = 0;
