@@ -22,8 +22,13 @@ OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_
     for (const FeatureUse& use : feature_report) {
         const OrderedJson mib = known(use.bytes, 1.0 / 1048576), ms = known(use.seconds, 1e3);
         if (const auto& p = use.pilot)
-            pilots.push_back(
-                {{"name", use.name}, {"used", use.used}, {"mse", p->mse}, {"relmse", p->relmse}, {"work", p->work}, {"cost", p->cost()}});
+            pilots.push_back({{"name", use.name},
+                              {"used", use.used},
+                              {"mse", p->mse},
+                              {"relmse", p->relmse},
+                              {"typical", p->typical},
+                              {"work", p->work},
+                              {"cost", p->cost()}});
         if (!use.used)
             left_out.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"saves_mib", mib}, {"saves_ms", ms}});
         else if (use.part == "kernel")

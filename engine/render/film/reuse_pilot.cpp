@@ -125,14 +125,19 @@ std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, con
         measured[size_t(i)] = compare(without, render_variant(shared, kernel, tile, *scratch[worker]), ray_cost);
     });
     if (!all) return std::nullopt;
+    // 1 for a tile without error.
+    const auto ratio = [](double with, double without) { return with > 0 && without > 0 ? with / without : 1.0; };
     Both sum;
+    double log_ratios = 0;
+    int noisy_tiles = 0;
     for (const Both& tile : measured) {
         sum.apart += tile.apart;
         sum.shared += tile.shared;
+        log_ratios += std::log(ratio(tile.shared.relmse, tile.apart.relmse));
+        noisy_tiles += tile.apart.relmse > 0 && tile.shared.relmse > 0;
     }
-    const auto ratio = [](double with, double without) { return with > 0 && without > 0 ? with / without : 1.0; };
     return PilotFigures{ratio(sum.shared.mse, sum.apart.mse), ratio(sum.shared.relmse, sum.apart.relmse),
-                        ratio(sum.shared.work, sum.apart.work)};
+                        std::exp(log_ratios / std::max(noisy_tiles, 1)), ratio(sum.shared.work, sum.apart.work)};
 }
 
 } // namespace blush

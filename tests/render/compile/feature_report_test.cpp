@@ -197,7 +197,9 @@ TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
         const EnvironmentTable t = build_environment_table(e);
         const auto bytes = [](const auto& v) { return int64_t(v.capacity() * sizeof(v[0])); };
         const EnvironmentBytes expected = environment_bytes(width, height);
-        EXPECT_EQ(bytes(t.texels), expected.texels);
+        // Those of the image, read in place.
+        EXPECT_EQ(t.image, e.image);
+        EXPECT_EQ(bytes(t.image->floats) + bytes(t.texels), expected.texels);
         EXPECT_EQ(bytes(t.row_thresholds) + bytes(t.column_thresholds) + bytes(t.column_guides) + bytes(t.rows), expected.importance);
     }
 }

@@ -225,7 +225,7 @@ TEST(ReusePilot, IsSavedWithTheFilm) {
     continued.render(3, 5);
     EXPECT_TRUE(same_picture(continued.resolve(), whole.resolve()));
     // What another version of the program decided stays decided.
-    state.reuse_pilot = PilotFigures{0.5, 0.5, 1.2};
+    state.reuse_pilot = PilotFigures{0.5, 0.5, 0.5, 1.2};
     Renderer other({.threads = 2});
     other.update(scene, settings);
     ASSERT_TRUE(other.load_film(state));
