@@ -139,7 +139,8 @@ TEST(RenderSession, ErrorsStateTheirSampleCount) {
 TEST(RenderSession, PilotOfPathReuseRunsAfterTheFirstSample) {
     Project project = small_project(64, 48, 8);
     project.render.reuse = reuse_auto;
-    for (const auto& [id, material] : test::sample_project().project.scene.materials.entries()) {
+    const auto materials = project.scene.materials; // a copy, as the loop changes the scene's
+    for (const auto& [id, material] : materials.entries()) {
         Material diffuse = material;
         diffuse.specular = 0;
         project.scene.materials.set(id, diffuse);
