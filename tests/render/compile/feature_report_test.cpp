@@ -199,7 +199,7 @@ TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
         const EnvironmentBytes expected = environment_bytes(width, height);
         // Those of the image, read in place.
         EXPECT_EQ(t.image, e.image);
-        EXPECT_EQ(bytes(t.image->floats) + bytes(t.texels), expected.texels);
+        EXPECT_EQ(int64_t(t.image->floats.size() * sizeof(float)) + bytes(t.texels), expected.texels);
         EXPECT_EQ(bytes(t.row_thresholds) + bytes(t.column_thresholds) + bytes(t.column_guides) + bytes(t.rows), expected.importance);
     }
 }
