@@ -146,7 +146,7 @@ struct Renderer::State {
         for (int k = 0; k < max_counted_bounces; ++k) {
             const PathCounts more = std::exchange(columns.counts[k], {});
             PathCounts& sum = path_counts[size_t(k)];
-            sum = {sum.alive + more.alive, sum.asked + more.asked, sum.survived + more.survived};
+            sum = {sum.alive + more.alive, sum.rr_applied + more.rr_applied, sum.survived + more.survived};
         }
     }
     TileScratch& scratch_of(unsigned worker) {

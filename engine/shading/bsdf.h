@@ -41,7 +41,7 @@ void make_layers(Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo, const En
 
 // `energy`: compensates the energy loss of the microfacet model; null (or S without energy_compensation): no compensation.
 template <Features S, class F> Bsdf<F> make_bsdf(const BsdfParams<F>& m, const Vec<F>& wo, const EnergyTable* energy) {
-    // What kernels with S read is set here and below; zeros for the rest would cost 6 % of shading.
+    // Members that kernels with S do not read stay uninitialized: setting them to zero would cost 6 % of shading.
     Bsdf<F> b;
     if constexpr (!has_facets(S)) {
         b.p_diffuse = F(1.f);

@@ -19,7 +19,7 @@ struct CasterSphere {
 };
 
 struct CausticCasterTables {
-    const CasterSphere* balls = nullptr;
+    const CasterSphere* spheres = nullptr;
     int32_t count = 0;
 };
 
@@ -47,14 +47,14 @@ template <class F> struct CasterCone {
     F height;  // 1 - cos of its angular radius
     F weight;  // 0: not sampled
 };
-template <class F> CasterCone<F> caster_cone(const CasterSphere& ball, const Vec<F>& from, const Vec<F>& normal) {
+template <class F> CasterCone<F> caster_cone(const CasterSphere& sphere, const Vec<F>& from, const Vec<F>& normal) {
     CasterCone<F> c;
-    c.to = splat<F>(ball.center) - from;
+    c.to = splat<F>(sphere.center) - from;
     const F d2 = dot(c.to, c.to);
-    c.height = sphere_cone_height(d2, F(ball.radius));
+    c.height = sphere_cone_height(d2, F(sphere.radius));
     // Approximate share of the cosine-weighted hemisphere; spheres with a centre below the horizon are not guided.
     const F part = 2.f * c.height * max(F(0.f), dot(c.to, normal)) / sqrt(max(d2, F(1e-30f)));
-    c.weight = select(F(ball.radius) * ball.radius >= min_caster_sin2 * d2, part * (guiding_boost - 1.f), F(0.f));
+    c.weight = select(F(sphere.radius) * sphere.radius >= min_caster_sin2 * d2, part * (guiding_boost - 1.f), F(0.f));
     return c;
 }
 
@@ -62,7 +62,7 @@ template <class F> CasterCone<F> caster_cone(const CasterSphere& ball, const Vec
 template <class F>
 CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>& from, const Vec<F>& normal, const Mask<F>& lambertian) {
     CausticGuide<F> f{from, normal, F(0.f), F(0.f)};
-    for (int i = 0; i < table.count; ++i) f.total = f.total + caster_cone<F>(table.balls[i], from, normal).weight;
+    for (int i = 0; i < table.count; ++i) f.total = f.total + caster_cone<F>(table.spheres[i], from, normal).weight;
     f.share = select(lambertian, min(f.total / (1.f + f.total), F(max_guided_share)), F(0.f));
     return f;
 }
@@ -71,11 +71,11 @@ CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>&
 template <class F> F guided_pdf(const CausticCasterTables& table, const CausticGuide<F>& f, const Vec<F>& direction, const F& pdf) {
     F sum = F(0.f);
     for (int i = 0; i < table.count; ++i) {
-        const CasterSphere& ball = table.balls[i];
-        const CasterCone<F> c = caster_cone<F>(ball, f.from, f.normal);
+        const CasterSphere& sphere = table.spheres[i];
+        const CasterCone<F> c = caster_cone<F>(sphere, f.from, f.normal);
         // Compares the distance of the ray from the centre: 1 - cos would lose all digits for a small cone.
         const Mask<F> ahead = c.weight > F(0.f) && dot(direction, c.to) > F(0.f);
-        const Mask<F> within = ahead && length_squared(cross(direction, c.to)) <= F(ball.radius * ball.radius);
+        const Mask<F> within = ahead && length_squared(cross(direction, c.to)) <= F(sphere.radius * sphere.radius);
         sum = sum + select(within, c.weight / c.height, F(0.f));
     }
     return (1.f - f.share) * pdf + f.share * (0.5f * inv_pi) * sum / max(f.total, F(1e-30f));
@@ -89,7 +89,7 @@ Vec<F> sample_caster_direction(const CausticCasterTables& table, const CausticGu
     F height = F(1.f), left = choice * f.total;
     Mask<F> open = Mask<F>(true);
     for (int i = 0; i < table.count; ++i) {
-        const CasterCone<F> c = caster_cone<F>(table.balls[i], f.from, f.normal);
+        const CasterCone<F> c = caster_cone<F>(table.spheres[i], f.from, f.normal);
         const Mask<F> it = open && c.weight > F(0.f);
         to = select<F>(it, c.to, to);
         height = select(it, c.height, height);

@@ -94,7 +94,7 @@ template <class V> ChildBounds<V> child_bounds(const LightTreeNode& node, int k)
             in_all_lanes(node.radius), in_all_lanes(node.sin_o), in_all_lanes(node.cos_o),
             in_all_lanes(node.cos_e),  in_all_lanes(node.power), Int<V>(node.sides[k])};
 }
-// Those from k on.
+// The children from k on, one in each lane.
 inline ChildBounds<Wide> children_bounds(const LightTreeNode& node, int k) {
     const auto row = [&](const float* r) { return load<Wide>(r + k); };
     const auto rows = [&](const float(&r)[3][max_tree_children]) { return Vec<Wide>{row(r[0]), row(r[1]), row(r[2])}; };
@@ -133,7 +133,8 @@ template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, 
     const Mask<V> shines = cos_p > b.cos_e;
 
     // The part of the bounds above the receiver's horizon: its share, mean height and distance. Without the box, a ceiling of lights
-    // seen at a grazing angle would be rated as if it were overhead; without the sphere, a ball for a receiver on its surface.
+    // seen at a grazing angle would be rated as if it were overhead; without the sphere, so would a spherical
+    // mesh by a receiver on its own surface.
     const V mean = -dot(to.normal, away), spread = min(dot(to.abs_normal, b.half), b.radius);
     V facing = select(to.all_sides, V(1.f), min(V(mean * over_d), V(1.f))), lit2 = d2;
     const V lowest = select(to.all_sides, V(1.f), V(mean - spread)), highest = select(to.all_sides, V(1.f), max(V(0.f), V(mean + spread)));
@@ -193,7 +194,7 @@ inline uint64_t threshold_of(const MeshLightTree& mesh, uint32_t leaf) {
     return leaf < mesh.leaf_count ? uint64_t(mesh.thresholds[leaf]) : uint64_t(1) << 32;
 }
 
-// One of these leaves by power, by `u` in [0, 1), which has 24 bits, and more random bits.
+// Selects one of the leaves in `among` in proportion to power, with `u` in [0, 1) (24 bits) and more random bits.
 inline TreePick pick_by_power(const LightTreeEntry& entry, const LeafRange& among, float probability, float u, uint32_t random) {
     const MeshLightTree& mesh = *entry.mesh;
     const uint64_t low = threshold_of(mesh, among.begin), total = threshold_of(mesh, among.end) - low;

@@ -120,7 +120,7 @@ std::vector<LosslessPlane> planes_in_file(const FilmState& film) {
 
 std::string film_json(const FilmState& film) {
     Json paths = Json::array();
-    for (const PathCounts& c : film.path_counts) paths.push_back({c.alive, c.asked, c.survived});
+    for (const PathCounts& c : film.path_counts) paths.push_back({c.alive, c.rr_applied, c.survived});
     Json json{{"first_sample", film.first_sample},
               {"samples", film.samples},
               {"seconds", film.seconds},
@@ -149,7 +149,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     if (!read_numbers(member(*json, "rays"), film.rays.camera, film.rays.bounce, film.rays.shadow)) return bad("rays");
     if (!read_json(member(*json, "truncated"), film.truncated)) return bad("truncated");
     if (!read_list(member(*json, "paths"), max_counted_bounces, film.path_counts,
-                   [](const Json& item, PathCounts& c) { return read_numbers(item, c.alive, c.asked, c.survived); }))
+                   [](const Json& item, PathCounts& c) { return read_numbers(item, c.alive, c.rr_applied, c.survived); }))
         return bad("paths");
     if (!read_health(member(*json, "health"), image, film.health)) return bad("health");
     if (const Json& shares = member(*json, "shares"); !shares.is_null()) {

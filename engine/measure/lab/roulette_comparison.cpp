@@ -70,7 +70,7 @@ struct Side {
         rays = {rays.camera + frame.rays.camera, rays.bounce + frame.rays.bounce, rays.shadow + frame.rays.shadow};
         for (size_t k = 0; k < counts.size(); ++k) {
             counts[k].alive += frame.path_counts[k].alive;
-            counts[k].asked += frame.path_counts[k].asked;
+            counts[k].rr_applied += frame.path_counts[k].rr_applied;
             counts[k].survived += frame.path_counts[k].survived;
         }
         for (Batch* batch : {&whole, &by_batch[size_t(round % batches)]}) {
@@ -91,7 +91,7 @@ struct Side {
         for (const PathCounts& c : counts) {
             if (c.alive == 0) break;
             f.alive.push_back(double(c.alive) / paths);
-            f.survival.push_back(c.asked > 0 ? double(c.survived) / double(c.asked) : -1);
+            f.survival.push_back(c.rr_applied > 0 ? double(c.survived) / double(c.rr_applied) : -1);
         }
         return f;
     }

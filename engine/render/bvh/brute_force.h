@@ -22,8 +22,8 @@ template <class F> struct ProjectedScene {
     F far;
     UInt<F> mask;
     alignas(64) float x[SmallScene::max_positions][width<F>], y[SmallScene::max_positions][width<F>];
-    // To the planes: infinite unless the plane is in front of the ray. The watertight test includes 0, but a ray must not hit the
-    // surface that it starts on.
+    // Distance to each plane; infinite if the plane is not in front of the ray. The watertight test accepts distance 0, but a ray must
+    // not hit the surface that it starts on.
     alignas(64) float distance[SmallScene::max_triangles][width<F>];
 
     ProjectedScene(const SmallScene& scene, const RayArrays& rays, int k) {

@@ -11,20 +11,21 @@ namespace blush {
 
 struct SmallScene {
     struct Triangle {
-        int32_t geometry; // as Accel numbers it
+        int32_t geometry; // index in Accel
         int32_t index;    // in its geometry
-        int32_t turn;     // its first vertex is this one of those that its face gives it
+        int32_t turn;     // position (0 to 2) of its first vertex among the three vertices of its half of the face
     };
-    // A convex quadrilateral of the triangles (0, 1, 2) and (0, 2, 3) of its vertices, or one triangle, whose fourth vertex is its first.
+    // A convex quadrilateral, split into the triangles (0, 1, 2) and (0, 2, 3) of its vertices; or one triangle: its fourth vertex
+    // repeats the first.
     struct Face {
         int32_t vertices[4]; // indices of `positions`
         uint32_t mask;
     };
-    // Faces in one plane are intersected with it together.
+    // Faces in the same plane share one intersection of the ray with that plane.
     struct Plane {
         Vec3 normal; // unit
         Vec3 point;
-        int32_t end = 0; // it has the faces up to this one, from the end of the plane before it on
+        int32_t end = 0; // index behind its last face; its first face is the previous plane's `end`
     };
     static constexpr int max_triangles = 64, max_positions = 3 * max_triangles;
 
@@ -35,10 +36,10 @@ struct SmallScene {
     bool masked = false; // some face is hidden from some rays
 };
 
-// Nothing unless the scene has 1 to max_triangles flat triangles and nothing else: no instances, spheres or opacity; and their area is
-// at least 0.8 of that of their bounding box, as in a room. Their scale must be similar, too: rounding moves a projected vertex by about
-// 1e-7 of its distance from the ray's origin, so triangles that are narrower than 1e-4 of the scene's diagonal are left to the BVH.
-// Triangles without area are omitted: no ray hits them.
+// Returns nothing unless the scene consists of 1 to max_triangles triangles only (no instances, spheres or opacity), and their total
+// area is at least 0.8 of the area of the bounding box, as in a room. Scenes with a triangle narrower than 1e-4 of the scene's diagonal
+// are left to the BVH: rounding moves a projected vertex by about 1e-7 of its distance from the ray's origin. Triangles of zero area
+// are omitted: no ray hits them.
 std::optional<SmallScene> make_small_scene(const AccelScene& scene);
 
 } // namespace blush

@@ -35,7 +35,7 @@ BlockRatios ratios_of_blocks(const Film& film, const ReuseGroups& groups) {
                 Vec3d tile{0, 0, 0};
                 for (int y = tile_y; y < std::min(tile_y + side, bottom); ++y)
                     for (int x = tile_x; x < std::min(tile_x + side, right); ++x) {
-                        const Vec3d d = half_difference(film.halves(size_t(y) * size_t(film.width()) + size_t(x)));
+                        const Vec3d d = half_difference(film.half_buffers(size_t(y) * size_t(film.width()) + size_t(x)));
                         tile = tile + d;
                         apart += dot(d, d);
                     }

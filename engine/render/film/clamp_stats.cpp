@@ -22,16 +22,16 @@ float ClampStats::min_clamped_sum() const { return on() ? clamp_.limit : std::nu
 ClampStats::ClampResult ClampStats::clamp(size_t place, const TileScratch& tile, int slot) {
     const Vec3d whole = radiance_in(tile, slot);
     if (!on()) return {whole, 0, 1};
-    Vec3d spared{0, 0, 0};
-    if (!clamp_.all) spared = tile.bounces->recorded > 1 ? radiance_in(tile.bounces->after[1], slot) : whole;
-    const Vec3d rr_throughput = whole - spared;
-    const double most = std::max({rr_throughput.x, rr_throughput.y, rr_throughput.z});
-    if (!(most > double(clamp_.limit))) return {whole, 0, 1};
-    const double scale = double(clamp_.limit) / most;
+    Vec3d unclamped{0, 0, 0};
+    if (!clamp_.all) unclamped = tile.bounces->recorded > 1 ? radiance_in(tile.bounces->after[1], slot) : whole;
+    const Vec3d clampable = whole - unclamped;
+    const double largest = std::max({clampable.x, clampable.y, clampable.z});
+    if (!(largest > double(clamp_.limit))) return {whole, 0, 1};
+    const double scale = double(clamp_.limit) / largest;
     ClampedSums& account = accounts_[place];
-    account.removed = account.removed + rr_throughput * (1 - scale);
+    account.removed = account.removed + clampable * (1 - scale);
     ++account.samples;
-    return {spared + rr_throughput * scale, clamp_.all ? 0 : 2, scale};
+    return {unclamped + clampable * scale, clamp_.all ? 0 : 2, scale};
 }
 
 } // namespace blush

@@ -31,7 +31,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
     const bool features = planes.albedo || planes.normal;
     const int bounces = planes.bounces > 0 ? planes.bounces : default_bounce_planes;
     return {
-        {"beauty", true, "two halves, for the error estimate", 2 * sizeof(Half)},
+        {"beauty", true, "two halves, for the error estimate", 2 * sizeof(HalfBuffer)},
         {"albedo and normal", features,
          features ? "used by the denoiser, the pixel probe or a layer; recorded only during rendering" : "not used: no layer, no denoiser",
          sizeof(FeatureSums)},
@@ -55,8 +55,8 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
 
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
-    return bytes(halves_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) + bytes(material_) +
-           bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes();
+    return bytes(half_buffers_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) +
+           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes();
 }
 
 void Film::require_memory(const FilmSize& size) {
@@ -96,7 +96,7 @@ void Film::set_gains(std::span<const Vec3> gains) {
 
 void Film::clear() {
     const size_t n = size_t(width_) * size_t(height_);
-    halves_.assign(2 * n, {});
+    half_buffers_.assign(2 * n, {});
     features_.assign(planes_.albedo || planes_.normal ? n : 0, {});
     const size_t places = adaptive_ ? 2 * n : n;
     covered_.assign(transparent_ ? places : 0, 0);
@@ -124,7 +124,7 @@ void Film::keep_only(const PlaneSet& planes) {
     free_unless(planes.bounces > 0, bounces_);
 }
 
-Film::Weights Film::weights(const Half& a, const Half& b) const {
+Film::Weights Film::weights(const HalfBuffer& a, const HalfBuffer& b) const {
     if (adaptive_ && a.count > 0 && b.count > 0) return {0.5 / double(a.count), 0.5 / double(b.count)};
     const double each = 1 / double(std::max<int64_t>(1, a.count + b.count));
     return {each, each};
@@ -156,7 +156,7 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
 }
 
 Vec3d Film::sum_of(size_t pixel) const {
-    const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
+    const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
     return {a.r + b.r, a.g + b.g, a.b + b.b};
 }
 
@@ -164,7 +164,8 @@ Vec3d Film::sum_of(size_t pixel) const {
 // to at most this are neither clamped nor among the worst fireflies.
 float Film::notable_sum(size_t pixel, int samples) const {
     float limit = std::min(std::numeric_limits<float>::max(), clamp_.min_clamped_sum());
-    const double count = double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count + samples), least = double(health_.min_excess());
+    const double count = double(half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count + samples),
+                 least = double(health_.min_excess());
     // No sample exceeds n times the mean of n samples.
     if (count <= least) return limit;
     // Lower bound of the mean during these samples; luminance is at most 0.716 of the sum.
@@ -174,13 +175,13 @@ float Film::notable_sum(size_t pixel, int samples) const {
 
 void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampStats::ClampResult& left) {
     const size_t place = place_of(pixel, half);
-    const bool first_of_pixel = halves_[2 * pixel].count + halves_[2 * pixel + 1].count == 0;
+    const bool first_of_pixel = half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count == 0;
     if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
     if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
     if (needs_groups() > 0) groups_.add(pixel, half, tile, slot, left.first_scaled, left.scale);
     if (planes_.roulette) {
         const RouletteColumns& c = *tile.roulette;
-        paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.asked[slot]), double(c.survival[slot])};
+        paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.num_rr_applied[slot]), double(c.survival[slot])};
     }
 }
 
@@ -196,8 +197,8 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
     const ClampStats::ClampResult left = clamp_.clamp(place, tile, slot);
     if (has_planes()) add_planes(pixel, int(at.sample & 1), tile, slot, left);
     if (caught) add_caught(place, tile, *caught, slot, left.radiance);
-    halves_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
-    const double mean = luminance(sum_of(pixel)) / double(halves_[2 * pixel].count + halves_[2 * pixel + 1].count);
+    half_buffers_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
+    const double mean = luminance(sum_of(pixel)) / double(half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count);
     const double bright = luminance(radiance);
     const float excess = float(bright / std::sqrt(mean * mean + 0.01));
     if (excess >= health_.min_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
@@ -218,7 +219,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
                 if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
                     if (planes) add_planes(pixel, int(sample & 1), tile, slot, {});
                     if (caught) add_caught(place_of(pixel, sample), tile, *caught, slot, {r, g, b});
-                    halves_[2 * pixel + size_t(sample & 1)].add({r, g, b});
+                    half_buffers_[2 * pixel + size_t(sample & 1)].add({r, g, b});
                 } else {
                     add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings, caught);
                 }
@@ -271,7 +272,7 @@ void Film::Totals::merge(const Totals& other) {
 }
 
 void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const {
-    const double na = double(halves_[2 * pixel].count), nb = double(halves_[2 * pixel + 1].count);
+    const double na = double(half_buffers_[2 * pixel].count), nb = double(half_buffers_[2 * pixel + 1].count);
     // The square of |A - B| times this is an unbiased estimate of the variance of the weighted mean.
     const double k = na > 0 && nb > 0 ? std::sqrt(na * w.a * nb * w.b) : 0;
     for (size_t g = 0; g < frame.groups.size(); ++g) {
@@ -287,7 +288,7 @@ void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vec
 
 void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const {
     for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
-        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
         const int64_t count = a.count + b.count;
         const Weights w = weights(a, b);
         float* rgba = &frame.rgba[4 * i];
@@ -335,14 +336,14 @@ void Film::for_each_band(const Workers& workers, const std::function<void(size_t
                      [&](int64_t i, unsigned) { task(size_t(i), int(i) * band_rows, std::min(height_, int(i + 1) * band_rows)); });
 }
 
-PixelHalfBuffers Film::halves(size_t pixel) const {
-    const Half &a = halves_[2 * pixel], &b = halves_[2 * pixel + 1];
+PixelHalfBuffers Film::half_buffers(size_t pixel) const {
+    const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
     if (a.count == 0 || b.count == 0) return {};
     const double na = double(a.count), nb = double(b.count);
     return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a};
 }
 
-void Film::load_halves(int y, float scale, HalfBufferRow& row) const {
+void Film::load_half_buffers(int y, float scale, HalfBufferRow& row) const {
     // Cached weights: most pixels have as many samples as the one before.
     struct Counted {
         int64_t a = -1, b = -1;
@@ -352,7 +353,7 @@ void Film::load_halves(int y, float scale, HalfBufferRow& row) const {
     } n;
     for (int x = 0; x < width_; ++x) {
         const size_t i = size_t(y) * size_t(width_) + size_t(x);
-        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
         if (a.count != n.a || b.count != n.b) {
             const Weights w = weights(a, b);
             const double s = double(scale), na = double(a.count), nb = double(b.count);
@@ -387,9 +388,9 @@ ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const
     // A single sample has no second half to compare with.
     size_t i = 0;
     const size_t n = size_t(width_) * size_t(height_);
-    while (i < n && !halves(i).known) ++i;
+    while (i < n && !half_buffers(i).known) ++i;
     if (i == n) return {};
-    const HalfBufferImage picture{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_halves(y, scale, row); }};
+    const HalfBufferImage picture{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_half_buffers(y, scale, row); }};
     std::vector<ErrorSums> bands(count_bands());
     for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(picture, first, last); });
     ErrorSums sums;
@@ -436,7 +437,7 @@ std::vector<Vec3> Film::standard_error() const {
     std::vector<Vec3> result;
     result.reserve(n);
     for (size_t i = 0; i < n; ++i) {
-        const Half &a = halves_[2 * i], &b = halves_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
         if (a.count == 0 || b.count == 0) return {};
         const double na = double(a.count), nb = double(b.count);
         // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.

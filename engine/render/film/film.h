@@ -74,18 +74,18 @@ public:
     // Sum of the samples of half `half` of a pixel, with the groups' gains applied.
     Vec3d sum(size_t pixel, int half) const {
         if (mixed_) return groups_.mixed(pixel, half, gains_);
-        const Half& h = halves_[2 * pixel + size_t(half)];
+        const HalfBuffer& h = half_buffers_[2 * pixel + size_t(half)];
         return {h.r, h.g, h.b};
     }
     // Calls change(index) for the material of each pixel's first hit.
     template <class Change> void each_material(const Change& change) {
         for (int32_t& index : material_) change(index);
     }
-    bool has_samples(size_t pixel) const { return halves_[2 * pixel].count + halves_[2 * pixel + 1].count > 0; }
+    bool has_samples(size_t pixel) const { return half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count > 0; }
     const Health& health() const { return health_.health(); }
     // Continues from the health record of another film (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
-    PixelHalfBuffers halves(size_t pixel) const;
+    PixelHalfBuffers half_buffers(size_t pixel) const;
     // Adaptive films: variance of a caught shadow's opacity in one half of the pixel's samples, from the difference of the
     // halves; 0 without a shadow catcher or if a half is empty.
     double shadow_variance(size_t pixel) const;
@@ -100,7 +100,7 @@ public:
 private:
     friend struct FilmPlanes;
 
-    struct Half {
+    struct HalfBuffer {
         double r = 0, g = 0, b = 0;
         int64_t count = 0;
         void add(const Vec3d& c) {
@@ -119,7 +119,7 @@ private:
     struct Weights {
         double a = 0, b = 0;
     };
-    Weights weights(const Half& a, const Half& b) const;
+    Weights weights(const HalfBuffer& a, const HalfBuffer& b) const;
     // Index of a pixel's sums in planes that must be unbiased: with separate half weights there are two places, side by side.
     size_t place_of(size_t pixel, int64_t sample) const { return adaptive_ ? 2 * pixel + size_t(sample & 1) : pixel; }
     template <class Sum> auto mean_of(size_t pixel, const Weights& w, const Sum& sum) const;
@@ -158,14 +158,14 @@ private:
     static constexpr int band_rows = 32;
     size_t count_bands() const;
     void for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const;
-    void load_halves(int y, float scale, HalfBufferRow& row) const;
+    void load_half_buffers(int y, float scale, HalfBufferRow& row) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
     bool transparent_ = false, adaptive_ = false, catches_ = false;
     Clamp clamping_;
     int group_count_ = 0;
-    std::vector<Half> halves_; // two per pixel: even and odd samples, two randomisations of the sampler
+    std::vector<HalfBuffer> half_buffers_; // two per pixel: even and odd samples, two randomisations of the sampler
     std::vector<FeatureSums> features_;
     std::vector<int64_t> covered_; // samples that hit something; only for transparent backgrounds
     std::vector<float> depth_;     // of the first sample, like the ids: their means are meaningless

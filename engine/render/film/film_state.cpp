@@ -193,7 +193,7 @@ Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const Rend
     sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
     for (size_t k = 0; k < b.path_counts.size(); ++k) {
         PathCounts& c = sum.path_counts[k];
-        c = {c.alive + b.path_counts[k].alive, c.asked + b.path_counts[k].asked, c.survived + b.path_counts[k].survived};
+        c = {c.alive + b.path_counts[k].alive, c.rr_applied + b.path_counts[k].rr_applied, c.survived + b.path_counts[k].survived};
     }
     return sum;
 }

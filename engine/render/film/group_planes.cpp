@@ -23,9 +23,9 @@ void GroupPlanes::add(size_t pixel, int half, const TileScratch& tile, int slot,
             sums[k] = sums[k] + whole;
             continue;
         }
-        Vec3d spared{0, 0, 0};
-        if (first_scaled > 0) spared = columns.has_direct ? radiance_in(columns.direct[k], slot) : whole;
-        sums[k] = sums[k] + spared + (whole - spared) * scale;
+        Vec3d unclamped{0, 0, 0};
+        if (first_scaled > 0) unclamped = columns.has_direct ? radiance_in(columns.direct[k], slot) : whole;
+        sums[k] = sums[k] + unclamped + (whole - unclamped) * scale;
     }
 }
 

@@ -1,5 +1,5 @@
 // Emission at ray hits: environment, suns, spheres and emissive triangles,
-// each with its MIS weight against next-event estimation (Veach 1997).
+// each with its MIS weight against next event estimation (Veach 1997).
 #pragma once
 
 #include "render/integrator/estimator_settings.h"

@@ -1,5 +1,5 @@
-// The estimator of the rendering equation (Kajiya 1986), one step at a time: unidirectional path tracing with next-event
-// estimation, both combined by multiple importance sampling (Veach 1997), and Russian roulette. Written once for any lane type.
+// The estimator of the rendering equation (Kajiya 1986), one step at a time: unidirectional path tracing and
+// next event estimation, combined by multiple importance sampling (Veach 1997), and Russian roulette. Written once for any lane type.
 #pragma once
 
 #include "render/integrator/camera.h"

@@ -7,8 +7,8 @@
 namespace blush::inline BLUSH_ISA {
 
 // Adds step.emitted of paths k, k + 1, ... of a queue: surfaces by their part, spheres and lights at infinity one by one.
-template <Features S, class F> void add_found_by_group(const KernelContext& context, GroupColumns& groups, const HitColumns& hits, int k,
-                                                       const Path<F>& path, const Step<F>& step, int bounce) {
+template <Features S, class F> void add_emission_by_group(const KernelContext& context, GroupColumns& groups, const HitColumns& hits, int k,
+                                                          const Path<F>& path, const Step<F>& step, int bounce) {
     const SceneTables& scene = *context.scene;
     const Mask<F> found = step.emits && as_mask(load<Int<F>>(hits.geometry + k) >= 0), escaped = step.emits && !found;
     const auto add = [&](int group, int i, const Vec<F>& light) {

@@ -29,7 +29,7 @@ template <class F> struct StepWeights {
     F emission;                         // MIS weight of emission at the hit
     F light, light_pdf, light_bsdf_pdf; // MIS weight of NEE; pdf of the light sample; pdf of the BSDF for it
     F survival;                         // survival probability of Russian roulette; 1 if not applied
-    Mask<F> asked;                      // roulette was applied
+    Mask<F> rr_applied;                 // Russian roulette was applied
     Vec<F> arriving;                    // throughput at the vertex, including absorption along the segment
 };
 
@@ -51,7 +51,7 @@ template <class F> struct Step {
     UInt<F> shadow_mask; // mask of the shadow ray; only if lights are linked
     Ray<F> shadow;
     F shadow_distance;
-    Path<F> next;      // where `continues` or `breaks`
+    Path<F> next;      // where `continues` or `non_finite`
     FirstHit<F> first; // at bounce 0 only
     StepWeights<F> weights;
 };

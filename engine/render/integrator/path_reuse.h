@@ -42,7 +42,7 @@ constexpr uint32_t connection_salt = 0xffffffffu;
 // Stores the vertices of paths k, k + 1, ... of the queue at bounce 0
 // or 1. At bounce 0 there is no compaction: the k-th path is slot k.
 template <class F>
-void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const ReuseVertex<F>& j) {
+void store_reuse_vertex(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const ReuseVertex<F>& j) {
     ReuseVertexColumns& c = bounce == 0 ? reuse.first : reuse.second;
     store(c.px + k, j.position.x);
     store(c.py + k, j.position.y);
@@ -69,15 +69,15 @@ void store_junction(ReuseColumns& reuse, const PathQueue& now, int k, int bounce
 // Call when a path's radiance holds exactly its unshared part (light arriving
 // at x, and emission hit from x): later contributions can be shared.
 inline void stash_unshared_radiance(ReuseColumns& reuse, TileScratch& scratch, int paths) {
-    const auto set_aside = [&](double* r, double* g, double* b, RadianceColumns& own) {
-        copy_radiance(r, g, b, paths, own);
+    const auto stash = [&](double* r, double* g, double* b, RadianceColumns& unshared) {
+        copy_radiance(r, g, b, paths, unshared);
         for (double* c : {r, g, b}) std::fill_n(c, paths, 0.0);
     };
-    set_aside(scratch.r, scratch.g, scratch.b, reuse.own);
-    reuse.own_groups.resize(scratch.groups ? scratch.groups->all.size() : 0);
-    for (size_t k = 0; k < reuse.own_groups.size(); ++k) {
+    stash(scratch.r, scratch.g, scratch.b, reuse.unshared);
+    reuse.unshared_groups.resize(scratch.groups ? scratch.groups->all.size() : 0);
+    for (size_t k = 0; k < reuse.unshared_groups.size(); ++k) {
         RadianceColumns& group = scratch.groups->all[k];
-        set_aside(group.r, group.g, group.b, reuse.own_groups[k]);
+        stash(group.r, group.g, group.b, reuse.unshared_groups[k]);
     }
 }
 
@@ -269,35 +269,35 @@ template <class F> void reuse_paths(const KernelContext& context, const TileJob&
     const ReuseGroups& groups = context.settings.reuse;
     ReuseColumns& reuse = *scratch.reuse;
     ReuseBatch& batch = reuse.batch;
-    const int most_groups = tile_capacity / (groups.size() * groups.size());
+    const int max_groups = tile_capacity / (groups.size() * groups.size());
     for (int y = 0; y < job.height; y += groups.block_height)
         for (int x = 0; x < job.width; x += groups.block_width)
             for (int sample = 0; sample < job.samples; ++sample) {
                 const BlockGroups in_block(groups, job.x + x, job.y + y, job.sample(sample));
                 for (int group = 0; group < groups.per_block(); ++group) {
-                    int slots[ReuseGroups::largest];
+                    int slots[ReuseGroups::max_size];
                     for (int m = 0; m < groups.size(); ++m) slots[m] = slot_in_block(job, x, y, in_block.pixel(group, m), sample);
                     seat_group(reuse, scratch, batch, slots, groups.size());
-                    if (batch.groups == most_groups) share_batch<F>(context, scratch, batch);
+                    if (batch.groups == max_groups) share_batch<F>(context, scratch, batch);
                 }
             }
     share_batch<F>(context, scratch, batch);
 
-    const auto add_own = [&](const RadianceColumns& own, const SharedRadiance& to) {
+    const auto add_unshared = [&](const RadianceColumns& unshared, const SharedRadiance& to) {
         for (int k = 0; k < job.paths(); ++k) {
-            to.r[k] += own.r[k];
-            to.g[k] += own.g[k];
-            to.b[k] += own.b[k];
+            to.r[k] += unshared.r[k];
+            to.g[k] += unshared.g[k];
+            to.b[k] += unshared.b[k];
         }
     };
-    add_own(reuse.own, {scratch.r, scratch.g, scratch.b});
+    add_unshared(reuse.unshared, {scratch.r, scratch.g, scratch.b});
     for (int k = 2; scratch.bounces && k < scratch.bounces->recorded; ++k) {
         RadianceColumns& after = scratch.bounces->after[size_t(k)];
-        add_own(reuse.own, {after.r, after.g, after.b});
+        add_unshared(reuse.unshared, {after.r, after.g, after.b});
     }
-    for (size_t k = 0; k < reuse.own_groups.size(); ++k) {
+    for (size_t k = 0; k < reuse.unshared_groups.size(); ++k) {
         RadianceColumns& group = scratch.groups->all[k];
-        add_own(reuse.own_groups[k], {group.r, group.g, group.b});
+        add_unshared(reuse.unshared_groups[k], {group.r, group.g, group.b});
     }
 }
 

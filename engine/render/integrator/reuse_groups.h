@@ -11,7 +11,7 @@ namespace blush {
 // by sharing: the larger the block, the further that error is below the noise of its pixels, and the less visible are edges
 // between blocks. Groups never cross blocks, so tiles made of whole blocks have whole groups, except at the film's border.
 struct ReuseGroups {
-    static constexpr int largest = 16; // pixels in a group
+    static constexpr int max_size = 16; // pixels in a group
 
     int columns = 1, rows = 1;             // of cells in a block
     int block_width = 1, block_height = 1; // pixels; powers of two
@@ -48,7 +48,7 @@ public:
 
 private:
     ReuseGroups groups_;
-    uint64_t keys_[ReuseGroups::largest]; // of the cells' permutations
+    uint64_t keys_[ReuseGroups::max_size]; // of the cells' permutations
 };
 
 } // namespace blush

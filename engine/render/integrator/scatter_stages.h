@@ -1,4 +1,4 @@
-// Stages of scatter() (estimator.h) behind the BSDF: next-event estimation, sampling of the next direction, Russian roulette.
+// Stages of scatter() (estimator.h) behind the BSDF: next event estimation, sampling of the next direction, Russian roulette.
 #pragma once
 
 #include "render/integrator/hit_stages.h"
@@ -57,7 +57,7 @@ scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const 
     return setup;
 }
 
-// Next-event estimation with a point of one light: beta f |cos| L_e w_light / p_light, and the shadow ray that has to arrive
+// Next event estimation with a point of one light: beta f |cos| L_e w_light / p_light, and the shadow ray that has to arrive
 // (Veach 1997, 9.2). Not where all lobes are delta lobes. `random`: pair of light_dimension.
 template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(const SceneTables& scene, Strategy strategy,
                                                                                 const ShadingPoint<F>& p, const ScatterSetup<F>& setup,
@@ -160,10 +160,10 @@ template <Features S, class F> [[gnu::always_inline]] inline void roulette(const
     }
     // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
     // scenes with delta lobes only.
-    const Mask<F> asked = !s.bsdf.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
-    const F q = select(asked, survival_probability(settings.roulette, rr_beta), F(1.f));
+    const Mask<F> rr_applied = !s.bsdf.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
+    const F q = select(rr_applied, survival_probability(settings.roulette, rr_beta), F(1.f));
     out.weights.survival = q;
-    out.weights.asked = out.continues && asked;
+    out.weights.rr_applied = out.continues && rr_applied;
     out.continues = out.continues && !(u >= q);
     beta = beta / max(q, F(1e-30f));
 }

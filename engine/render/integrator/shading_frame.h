@@ -11,7 +11,8 @@ template <Features S, class F> Vec<F> shading_normal(const Surface<F>& s, const 
     Vec<F> ns = select<F>(dot(s.ns, ng) < F(0.f), -s.ns, s.ns);
     if constexpr (S.has(Feature::normal_maps)) {
         if (any(s.has_tangents)) {
-            // glTF: bitangent = cross(normal, tangent) * w. Gram-Schmidt against the interpolated normal.
+            // Normal mapping: the map's normal is in tangent space, the basis (t, b, n). glTF: bitangent = cross(normal, tangent) * w.
+            // Gram-Schmidt makes the tangent orthogonal to the interpolated normal.
             const Vec<F> n = s.ns;
             const Vec<F> flat = s.tangent - n * dot(n, s.tangent);
             const F l2 = dot(flat, flat);

@@ -50,16 +50,16 @@ template <class F> void add_light(TileScratch& scratch, const int32_t* slots, co
 }
 
 template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, const Step<F>& step, const Mask<F>& active, int bounce) {
-    const Mask<F> asked = step.weights.asked;
+    const Mask<F> rr_applied = step.weights.rr_applied;
     for_each_lane(bits(active), [&](int i) { c.length[slots[i]] += 1; });
-    for_each_lane(bits(asked), [&](int i) {
-        c.asked[slots[i]] += 1;
+    for_each_lane(bits(rr_applied), [&](int i) {
+        c.num_rr_applied[slots[i]] += 1;
         c.survival[slots[i]] += lane(step.weights.survival, i);
     });
     PathCounts& counts = c.counts[std::min(bounce, max_counted_bounces - 1)];
     counts.alive += count(active);
-    counts.asked += count(asked);
-    counts.survived += count(asked && (step.continues || step.non_finite));
+    counts.rr_applied += count(rr_applied);
+    counts.survived += count(rr_applied && (step.continues || step.non_finite));
 }
 
 template <Features S, class F>
@@ -100,7 +100,7 @@ template <Features S, class F>
     if (scratch.groups) scratch.groups->clear(n);
     if (!scratch.roulette) return;
     std::fill_n(scratch.roulette->length.data, n, 0.f);
-    std::fill_n(scratch.roulette->asked.data, n, 0.f);
+    std::fill_n(scratch.roulette->num_rr_applied.data, n, 0.f);
     std::fill_n(scratch.roulette->survival.data, n, 0.f);
 }
 
@@ -131,11 +131,11 @@ template <Features S, class F>
             // Path reuse connections do not pass panes, so a segment that does is not shared.
             ReuseVertex<F> reuse_vertex = step.reuse_vertex;
             if (bounce == 1) reuse_vertex.lambertian = reuse_vertex.lambertian && straight;
-            store_junction<F>(*scratch.reuse, now, k, bounce, path, reuse_vertex);
+            store_reuse_vertex<F>(*scratch.reuse, now, k, bounce, path, reuse_vertex);
         }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
         if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
-        if (scratch.groups && any(step.emits)) add_found_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
+        if (scratch.groups && any(step.emits)) add_emission_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
         if (any(step.connects)) {
             if (alpha)
@@ -179,7 +179,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
     if (scratch.bounces) scratch.bounces->recorded = 0;
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
-    bool own_is_aside = false;
+    bool unshared_is_stashed = false;
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0; ++bounce) {
@@ -195,12 +195,12 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         scratch.shadow_rays += scratch.shadows.size;
         if (reuses && bounce == 1) {
             stash_unshared_radiance(*scratch.reuse, scratch, job.paths());
-            own_is_aside = true;
+            unshared_is_stashed = true;
         }
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         std::swap(now, next);
     }
-    if (own_is_aside) reuse_paths<F>(context, job, scratch);
+    if (unshared_is_stashed) reuse_paths<F>(context, job, scratch);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -67,7 +67,7 @@ struct BounceColumns {
 // Statistics of path lengths and Russian roulette.
 struct RouletteColumns {
     Column<float> length;                   // vertices of each path, including the one where it escapes
-    Column<float> asked;                    // number of roulette decisions,
+    Column<float> num_rr_applied;           // number of roulette decisions,
     Column<float> survival;                 // and the sum of their survival probabilities
     PathCounts counts[max_counted_bounces]; // accumulated
 };

@@ -29,13 +29,13 @@ struct ReuseBatch {
 };
 
 struct ReuseColumns {
-    ReuseVertexColumns first;                // by slot
-    Column<float> rho_r, rho_g, rho_b;       // by slot: reflectance of the first vertex
-    RadianceColumns own;                     // by slot: unshared radiance
-    std::vector<RadianceColumns> own_groups; // the same by light group; empty: no light mix
-    Column<int32_t> second_of;               // by slot: position in the queue of bounce 1, -1: none
-    ReuseVertexColumns second;               // by position in that queue
-    Column<uint32_t> random;                 // likewise: for stochastic opacity
+    ReuseVertexColumns first;                     // by slot
+    Column<float> rho_r, rho_g, rho_b;            // by slot: reflectance of the first vertex
+    RadianceColumns unshared;                     // by slot: unshared radiance
+    std::vector<RadianceColumns> unshared_groups; // the same by light group; empty: no light mix
+    Column<int32_t> second_of;                    // by slot: position in the queue of bounce 1, -1: none
+    ReuseVertexColumns second;                    // by position in that queue
+    Column<uint32_t> random;                      // likewise: for stochastic opacity
     ReuseBatch batch;
 };
 

@@ -30,17 +30,17 @@ bool casts_caustics(const Material& m) {
     return narrow && std::max(m.metallic, refracts) >= min_specular_share;
 }
 
-GeometryBoundingSphere ball_around(const Geometry& geometry) {
+GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
     Bounds box;
     for (const Vec3& p : geometry.positions) box.include(to_double(p));
-    GeometryBoundingSphere ball{box.center(), 0};
-    for (const Vec3& p : geometry.positions) ball.radius = std::max(ball.radius, length(to_double(p) - ball.center));
-    return ball;
+    GeometryBoundingSphere sphere{box.center(), 0};
+    for (const Vec3& p : geometry.positions) sphere.radius = std::max(sphere.radius, length(to_double(p) - sphere.center));
+    return sphere;
 }
 
 void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted) {
     std::map<uint64_t, GeometryBoundingSphere> used;
-    balls_.clear();
+    spheres_.clear();
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             const Material* material = scene.materials.find(part.material);
@@ -48,21 +48,21 @@ void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject
             const uint64_t serial = part.geometry->serial;
             if (!used.contains(serial)) {
                 const auto known = by_serial_.find(serial);
-                used.emplace(serial, known != by_serial_.end() ? known->second : ball_around(*part.geometry));
+                used.emplace(serial, known != by_serial_.end() ? known->second : bounding_sphere(*part.geometry));
             }
-            const GeometryBoundingSphere& ball = used.at(serial);
+            const GeometryBoundingSphere& sphere = used.at(serial);
             for (size_t copy = 0; copy < object.copies(); ++copy) {
                 const Affined world_from_copy = object.world_from_copy(copy);
-                const Vec3d center = transform_point(world_from_copy, ball.center) - origin;
+                const Vec3d center = transform_point(world_from_copy, sphere.center) - origin;
                 // Slightly enlarged against rounding.
-                const double radius = ball.radius * max_scale(world_from_copy) * (1 + 1e-5);
+                const double radius = sphere.radius * max_scale(world_from_copy) * (1 + 1e-5);
                 if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center)))
-                    balls_.push_back({to_float(center), float(radius)});
+                    spheres_.push_back({to_float(center), float(radius)});
             }
         }
     by_serial_ = std::move(used);
-    std::ranges::stable_sort(balls_, std::greater<>(), &CasterSphere::radius);
-    balls_.resize(std::min(balls_.size(), max_casters));
+    std::ranges::stable_sort(spheres_, std::greater<>(), &CasterSphere::radius);
+    spheres_.resize(std::min(spheres_.size(), max_casters));
 }
 
 } // namespace blush

@@ -20,7 +20,7 @@ struct GeometryBoundingSphere {
     Vec3d center{0, 0, 0};
     double radius = 0;
 };
-GeometryBoundingSphere ball_around(const Geometry& geometry);
+GeometryBoundingSphere bounding_sphere(const Geometry& geometry);
 
 // Builds the list without reading all vertices at each edit: caches the spheres of geometries.
 class CausticCasterTable {
@@ -29,11 +29,11 @@ public:
 
     // `objects` in their traced form; positions are relative to `origin`. Empty if `wanted` is false.
     void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted);
-    CausticCasterTables tables() const { return {balls_.data(), int32_t(balls_.size())}; }
-    const std::vector<CasterSphere>& balls() const { return balls_; }
+    CausticCasterTables tables() const { return {spheres_.data(), int32_t(spheres_.size())}; }
+    const std::vector<CasterSphere>& spheres() const { return spheres_; }
 
 private:
-    std::vector<CasterSphere> balls_;
+    std::vector<CasterSphere> spheres_;
     std::map<uint64_t, GeometryBoundingSphere> by_serial_;
 };
 

@@ -58,7 +58,7 @@ struct TableBuilder {
 };
 
 // Bounds of an omnidirectional light at `center`, or of a spot's cone.
-LightBounds ball_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
+LightBounds sphere_bounds(const Vec3& center, double radius, const Light& light, const Affined& world) {
     LightBounds b;
     const Vec3d c = to_double(center), r{radius, radius, radius};
     b.low = to_float(c - r);
@@ -91,7 +91,7 @@ void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLi
         record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
-        const LightBounds bounds = ball_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node);
+        const LightBounds bounds = sphere_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node);
         b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share, &bounds);
     }
 }
@@ -135,7 +135,7 @@ void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node
         record.position = to_float(world.t - origin);
         record.emission = emission;
         ++b.table.point_lights;
-        const LightBounds bounds = ball_bounds(record.position, 0, *light, world);
+        const LightBounds bounds = sphere_bounds(record.position, 0, *light, world);
         b.add(record, id, 4 * std::numbers::pi * luminance_of(emission) * profile.share, &bounds);
     }
 }

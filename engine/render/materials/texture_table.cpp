@@ -84,7 +84,7 @@ public:
     TextureTable build(const Workers* workers) && {
         for (const TextureSource& source : table_.sources) table_.records.push_back(record(source));
         table_.rgba8.resize(bytes_);
-        table_.rgba16f.resize(2 * halves_);
+        table_.rgba16f.resize(2 * half_floats_);
         table_.rgba32f.resize(4 * floats_);
         const auto fill_one = [&](int64_t i, unsigned) { fill(placed_[size_t(i)]); };
         const auto count = int64_t(placed_.size());
@@ -125,7 +125,7 @@ private:
         const auto other = places_.find({image.serial, !source.is_color});
         placed.owns_base = is_float || other == places_.end();
         placed.base = placed.owns_base ? take(is_float ? floats_ : bytes_, texel_count(image)) : placed_[other->second].base;
-        placed.mips = take(is_float ? floats_ : halves_, mip_texels(image));
+        placed.mips = take(is_float ? floats_ : half_floats_, mip_texels(image));
         size_t offset = placed.mips;
         add_level(placed.base, image.width, image.height,
                   is_float          ? encoding_float32
@@ -153,7 +153,7 @@ private:
     bool fits(const Image& image) const {
         const size_t texels = texel_count(image), mips = mip_texels(image);
         if (image.bytes.empty()) return texels + mips < max_float_texels - floats_;
-        return texels < max_byte_texels - bytes_ && mips <= max_half_texels - halves_;
+        return texels < max_byte_texels - bytes_ && mips <= max_half_texels - half_floats_;
     }
 
     // Thread-safe: no two entries write the same texels.
@@ -178,7 +178,7 @@ private:
             if (image.bytes.empty())
                 std::ranges::copy(rgba, table_.rgba32f.begin() + std::ptrdiff_t(4 * at));
             else
-                fill_halves(rgba, table_.rgba16f.data() + 2 * at);
+                fill_half_floats(rgba, table_.rgba16f.data() + 2 * at);
         });
     }
 
@@ -204,7 +204,7 @@ private:
         }
     }
 
-    static void fill_halves(std::span<const float> rgba, uint32_t* pairs) {
+    static void fill_half_floats(std::span<const float> rgba, uint32_t* pairs) {
         for (size_t i = 0; i < rgba.size() / 2; ++i) pairs[i] = half_bits(rgba[2 * i]) | half_bits(rgba[2 * i + 1]) << 16;
     }
 
@@ -236,7 +236,7 @@ private:
     TextureTable table_;
     std::vector<Placed> placed_;
     std::map<std::pair<uint64_t, bool>, size_t> places_; // by (serial, as colour)
-    size_t bytes_ = 0, halves_ = 0, floats_ = 0;         // texels of each pool
+    size_t bytes_ = 0, half_floats_ = 0, floats_ = 0;    // texels of each pool
     const ImagePtr white_ = std::make_shared<Image>(Image{.width = 1, .height = 1, .channels = 1, .bytes = {255}, .floats = {}});
 };
 

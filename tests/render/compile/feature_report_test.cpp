@@ -110,8 +110,8 @@ TEST(FeatureReport, CausticGuidingIsUsedIfMirrorsOrGlassFocusLight) {
     EXPECT_TRUE(line(lit.feature_report(), "kernel", name).used);
     const CausticCasterTables casters = lit.scene.tables().caustic_casters;
     ASSERT_EQ(casters.count, 1);
-    EXPECT_NEAR(casters.balls[0].radius, 0.5f, 1e-4f);
-    EXPECT_NEAR(casters.balls[0].center.y, 1, 1e-6f);
+    EXPECT_NEAR(casters.spheres[0].radius, 0.5f, 1e-4f);
+    EXPECT_NEAR(casters.spheres[0].center.y, 1, 1e-6f);
 }
 
 TEST(FeatureReport, UnusedTexturesAreNotStored) {

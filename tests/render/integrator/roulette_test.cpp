@@ -44,10 +44,10 @@ TEST(RouletteColumns, PathsInAClosedRoomAreGeometric) {
     EXPECT_EQ(rays, frame.rays.camera + frame.rays.bounce);
     for (int k = 0; k < 8; ++k) {
         const PathCounts& c = frame.path_counts[size_t(k)];
-        EXPECT_EQ(c.asked, c.alive) << k;
+        EXPECT_EQ(c.rr_applied, c.alive) << k;
         EXPECT_EQ(c.survived, frame.path_counts[size_t(k) + 1].alive) << k;
-        const double error = std::sqrt(q * (1 - q) / double(c.asked));
-        EXPECT_LT(std::abs(double(c.survived) / double(c.asked) - q), 5 * error) << k;
+        const double error = std::sqrt(q * (1 - q) / double(c.rr_applied));
+        EXPECT_LT(std::abs(double(c.survived) / double(c.rr_applied) - q), 5 * error) << k;
     }
 }
 
