@@ -28,7 +28,7 @@ struct EnvironmentChoice {
 // Error messages name the expected format.
 Result<EnvironmentChoice> parse_environment(std::string_view text);
 
-// The environment of the studio lighting (scene/light_rig.h) from the assets; none if the file is not installed.
+// The environment of the studio lighting (scene/lights/light_rig.h) from the assets; none if the file is not installed.
 Environment studio_map();
 // "none", "studio", "sky".
 Result<std::optional<LightRig>> parse_light(std::string_view text);

@@ -22,7 +22,7 @@ namespace blush {
 // A new serial number for a payload; never 0, never repeated in this process. Thread-safe.
 uint64_t next_payload_serial();
 
-// Marks tangents that were generated (scene/tangents.h) rather than loaded, with the data that removes them again.
+// Marks tangents that were generated (scene/geometry/tangents.h) rather than loaded, with the data that removes them again.
 struct GeneratedTangents {
     int uv_set = -1;              // UV set they were computed from
     std::vector<uint32_t> copies; // source vertex of each vertex that was added for them at the end of the arrays
@@ -151,7 +151,7 @@ struct Mesh {
     bool operator==(const Mesh&) const = default;
 };
 
-// Measured luminous intensity distribution of a luminaire (ANSI/IES LM-63); immutable once shared. See scene/ies_profile.h.
+// Measured luminous intensity distribution of a luminaire (ANSI/IES LM-63); immutable once shared. See scene/lights/ies_profile.h.
 struct IesProfile;
 using IesPtr = std::shared_ptr<const IesProfile>;
 
@@ -240,11 +240,11 @@ struct Node {
     Id<Skin> skin;                       // that deforms the mesh
     std::vector<float> morph_weights;    // of the mesh's targets; missing ones are 0
     std::vector<int32_t> only_in_scenes; // of a root: indices into Scene::scene_names; empty: all
-    bool shadow_catcher = false;         // all meshes of this subtree are shadow catchers (render/shadow_catcher.h)
+    bool shadow_catcher = false;         // all meshes of this subtree are shadow catchers (render/film/shadow_catcher.h)
     bool operator==(const Node&) const = default;
 };
 
-// Parameters of the physical sky: sun position and atmosphere (scene/sky_model.h).
+// Parameters of the physical sky: sun position and atmosphere (scene/lights/sky_model.h).
 struct Sky {
     float turbidity = 3; // 2 clear .. 10 hazy
     float ground_albedo = 0.3f;

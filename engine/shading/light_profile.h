@@ -4,7 +4,7 @@
 //   spread  of an area light with a grid in front of it, which blocks more light at larger angles:
 //           max(0, tan h - tan theta) / (tan h - h), h half the spread. The integral of it times the cosine over the hemisphere is pi
 //           for any spread, so an area light keeps its luminous flux and gets brighter along its axis.
-//   table   an IES profile (scene/ies_profile.h), relative to its peak
+//   table   an IES profile (scene/lights/ies_profile.h), relative to its peak
 #pragma once
 
 #include "core/math.h"

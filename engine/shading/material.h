@@ -13,7 +13,7 @@ enum MaterialFlag : int32_t {
     material_unlit = 2,    // only base_color is visible; does not scatter
     material_thin = 4,     // transmits like a sheet without inside
     material_emissive = 8, // emission is not black
-    material_pane = 16,    // thin, and may be smooth: light may pass straight through (render/thin_transmission.h)
+    material_pane = 16,    // thin, and may be smooth: light may pass straight through (render/integrator/thin_transmission.h)
 };
 enum MaterialAlpha : int32_t { alpha_opaque, alpha_mask, alpha_blend };
 

@@ -5,7 +5,7 @@
 
 namespace blush {
 
-// Sets the light to `after`; if several lights are selected, the others get the same edit (edit_together.h). One undo step.
+// Sets the light to `after`; if several lights are selected, the others get the same edit (multi_edit.h). One undo step.
 bool set_light(PanelContext& c, Id<Light> light, const Light& after, Gesture gesture);
 
 // Toggles an object in the selected light's light linking or shadow linking, and shows a message. False if no light is selected

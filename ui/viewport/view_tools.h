@@ -13,7 +13,7 @@ PictureRegion region_between(double u0, double v0, double u1, double v1);
 
 // Draws the frame of the measured region.
 void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSettings& view);
-// Draws the frame of the render region; covers the rest, unless the last whole picture is shown there (region_surroundings.h).
+// Draws the frame of the render region; covers the rest, unless the last whole picture is shown there (region_backdrop.h).
 void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& region, bool covers);
 
 // Sets the render region.

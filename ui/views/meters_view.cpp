@@ -15,7 +15,7 @@ namespace blush {
 namespace {
 
 // Offset of a meter from its surface, in metres, for the renderer's single precision: hit points are off by at most 2^-21 of the
-// coordinates that they are computed from (render/surface.h); four times that.
+// coordinates that they are computed from (render/integrator/surface.h); four times that.
 double clearance_of(const Scene& scene, const RayHit& hit) {
     const Vec3d origin = render_origin(world_bounds(scene));
     double largest = hit.largest_term;

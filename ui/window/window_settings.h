@@ -44,7 +44,7 @@ struct WindowSettings {
     std::vector<std::string> bookmarks;   // folders of the file browser
     bool desktop_file_dialog = true;      // use the desktop's file dialog, if available
     std::string browser_folder;           // last folder of the file browser
-    std::map<std::string, double> panels; // open panels and their settings (remembered.h), and sections of the inspector
+    std::map<std::string, double> panels; // open panels and their settings (ui_persistence.h), and sections of the inspector
     std::string floating;                 // ImGui's text with the positions of floating windows
     std::vector<SceneMemory> scenes;      // newest first
     bool operator==(const WindowSettings&) const = default;

@@ -60,7 +60,7 @@ struct SnapshotInput {
 };
 
 // Channels R G B A, then denoised.{R,G,B}, albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
-// group.NAME.{R,G,B}, id.object, id.material, film.* (exact_channels.h).
+// group.NAME.{R,G,B}, id.object, id.material, film.* (lossless_channels.h).
 // Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot represent.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 

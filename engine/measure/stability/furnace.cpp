@@ -11,7 +11,7 @@ namespace blush::stability {
 namespace {
 
 constexpr float emission = 2;
-// Maximum vertices of a path (render/estimator_settings.h limits it to 100000 scattering events).
+// Maximum vertices of a path (render/integrator/estimator_settings.h limits it to 100000 scattering events).
 constexpr double longest = 100001;
 
 Scene room(const GeometryPtr& walls, float albedo) {

@@ -57,7 +57,7 @@ public:
                             const Workers& workers);
 
     bool has_alpha() const;
-    // Number of triangles in meshes whose BVH stores indices to save memory (compact_tree.h); each mesh counts once.
+    // Number of triangles in meshes whose BVH stores indices to save memory (compact_bvh.h); each mesh counts once.
     size_t compact_triangles() const;
     size_t memory_bytes() const;
 

@@ -11,7 +11,7 @@ namespace blush {
 // Cache of the last deformed meshes, so that an unchanged deformation keeps its geometry and BVH.
 class DeformedMeshes {
 public:
-    // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/pose.h). `workers` as in
+    // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/animation/pose.h). `workers` as in
     // deformed().
     void bend(Scene& posed, const Workers* workers);
 
@@ -27,7 +27,7 @@ private:
 // Ids of those meshes: this bit plus the id of their node.
 constexpr uint32_t deformed_id_bit = 0x40000000u;
 
-// World transform of a node's mesh in such a scene; skinned meshes are relative to their first joint (scene/bend.h).
+// World transform of a node's mesh in such a scene; skinned meshes are relative to their first joint (scene/animation/deform.h).
 Affined world_from_mesh(const Scene& expanded, WorldTransforms& placements, Id<Node> id, const Node& node);
 
 } // namespace blush

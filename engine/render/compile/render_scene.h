@@ -55,7 +55,7 @@ public:
     const std::string& missing_light() const { return missing_light_; }
     // Everything except the kernel and the feature report.
     CompiledInfo info() const;
-    // `lowered` as passed last time; the film that is rendered to.
+    // `expanded`: the scene of the last update(); `film`: the film that is rendered to.
     FeatureReport feature_report(const Scene& expanded, const FilmSize& film) const;
 
 private:

@@ -11,7 +11,7 @@ namespace blush {
 // Caches the results, so that unchanged needs keep the same geometry and BVH.
 class TangentMeshes {
 public:
-    // Gives parts that need tangents and have none, or have them for another UV set (scene/tangents.h), the tangents that import
+    // Gives parts that need tangents and have none, or have them for another UV set (scene/geometry/tangents.h), the tangents that import
     // would have made for their current material. Tangents stored in the file are kept.
     void provide(Scene& scene);
 

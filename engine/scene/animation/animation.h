@@ -1,5 +1,5 @@
 // Animation data of a scene: skins, morph targets, and clips that animate nodes.
-// Nodes store their rest pose; animated poses are computed on demand (scene/pose.h). Undo, saving and returning to rest therefore
+// Nodes store their rest pose; animated poses are computed on demand (scene/animation/pose.h). Undo, saving and returning to rest therefore
 // need no extra state.
 #pragma once
 

@@ -55,7 +55,7 @@ struct SetMix {
 };
 struct BakeMix {
     Scene scene;
-}; // the same scene with the mix in its lights (render/bake_mix.h)
+}; // the same scene with the mix in its lights (render/light_mix/bake_mix.h)
 struct SetLens {
     Lens lens;
 }; // of the view

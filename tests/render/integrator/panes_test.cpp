@@ -1,5 +1,5 @@
 // Panes (thin smooth transmissive walls): light passes straight through, for every kind of light and every strategy
-// (render/thin_transmission.h).
+// (render/integrator/thin_transmission.h).
 #include "tests/render/irradiance.h"
 #include "tests/render/picture.h"
 #include "tests/render/scenes.h"

@@ -104,7 +104,7 @@ TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
     EXPECT_TRUE(same_means(mis, with_strategy(scene, Strategy::bsdf, 16, 16, 1024)));
 }
 
-// BSDF sampling alone excludes caustic guiding (shading/focus.h), so it is the reference that finds all light by chance.
+// BSDF sampling alone excludes caustic guiding (shading/caustic_guiding.h), so it is the reference that finds all light by chance.
 TEST(Strategies, AgreeOnCaustics) {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.7f));

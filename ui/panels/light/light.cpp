@@ -1,4 +1,4 @@
-// Light section: type and direction. Intensity, size and distribution are in the files light_*.cpp.
+// Light section: type and direction. The other files of this folder draw intensity, size, distribution and linking.
 #include "ui/lights/light_tools.h"
 #include "ui/lights/multi_edit_apply.h"
 #include "ui/panels/light/fields.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: lint. Reports legal but probably unintended content.
+// Internal to io/gltf: lint. Reports legal but probably unintended content.
 #pragma once
 
 #include "io/gltf/read/context.h"

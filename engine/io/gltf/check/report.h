@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reports which extensions of the file are supported.
+// Internal to io/gltf: reports which extensions of the file are supported.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: schema check. Reports JSON that violates the glTF schema.
+// Internal to io/gltf: schema check. Reports JSON that violates the glTF schema.
 #pragma once
 
 #include "io/gltf/read/context.h"

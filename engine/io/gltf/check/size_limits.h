@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: size limits. Rejects files whose decoded size is out of proportion to their bytes.
+// Internal to io/gltf: size limits. Rejects files whose decoded size is out of proportion to their bytes.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: KHR_draco_mesh_compression. The only file that uses the Draco library.
+// Internal to io/gltf: KHR_draco_mesh_compression. The only file that uses the Draco library.
 #pragma once
 
 #include "io/gltf/compression/decompression_limit.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: EXT_meshopt_compression. The only file that uses the meshoptimizer library.
+// Internal to io/gltf: EXT_meshopt_compression. The only file that uses the meshoptimizer library.
 #pragma once
 
 #include "io/gltf/compression/decompression_limit.h"

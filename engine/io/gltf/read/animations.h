@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports animations.
+// Internal to io/gltf: imports animations.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports cameras and the initial view.
+// Internal to io/gltf: imports cameras and the initial view.
 #pragma once
 
 #include "io/gltf/read/context.h"

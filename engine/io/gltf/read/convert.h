@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: converts a parsed document to a scene.
+// Internal to io/gltf: converts a parsed document to a scene.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads properties without a glTF equivalent from `extras.blush` of an object.
+// Internal to io/gltf: reads properties without a glTF equivalent from `extras.blush` of an object.
 //
 //   "id": 7                                              the record's id, if it is not the next in sequence
 //   "fields": {"kind": "rectangle", "two_sided": true}   members by the names of scene_fields.h

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: assigns ids to imported records. Ids survive saving and loading: objects whose id is not the next in
+// Internal to io/gltf: assigns ids to imported records. Ids survive saving and loading: objects whose id is not the next in
 // sequence store it in extras.blush.id.
 #pragma once
 

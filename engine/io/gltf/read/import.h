@@ -1,4 +1,4 @@
-// Imports glTF 2.0 (.gltf, .glb). Only gltf_*.cpp uses tinygltf. Treats any input as hostile.
+// Imports glTF 2.0 (.gltf, .glb). Only io/gltf uses tinygltf. Treats any input as hostile.
 #pragma once
 
 #include "core/result.h"
@@ -27,10 +27,9 @@ struct ImportedScene {
 // Imports the file's default scene, the saved view or that of the first camera (or one framed around the geometry), lights of
 // KHR_lights_punctual, EXT_lights_area and EXT_lights_ies, and `extras.blush`: on the scene `environment` {kind, color,
 // intensity, rotation_degrees, file, visible_to_camera} (its file relative to the scene's folder), on a light `angle_degrees`,
-// `radius`, `rectangle`
-// {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on any object the fields that glTF cannot
-// express (gltf_save.h). Ids are deterministic: two imports of a file give the same ids, and saving and loading a scene keeps
-// them.
+// `radius`, `rectangle` {width, height, two_sided}, on a camera `aperture_radius`, `focus_distance`, and on any object the fields
+// that glTF cannot express (io/gltf/write/save.h). Ids are deterministic: two imports of a file give the same ids, and saving and
+// loading a scene keeps them.
 // Errors: unreadable, not glTF, a required extension that is not supported, an index out of range, a buffer that is missing or too
 // short, a file URI that leaves the scene's folder or is not a plain relative path.
 Result<ImportedScene> import_gltf(const std::filesystem::path& file, const ImportOptions& options = {});

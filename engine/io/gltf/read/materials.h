@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports materials and their extensions.
+// Internal to io/gltf: imports materials and their extensions.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports the node hierarchy. Uses no recursion, since a hostile file may have very deep hierarchies.
+// Internal to io/gltf: imports the node hierarchy. Uses no recursion, since a hostile file may have very deep hierarchies.
 #pragma once
 
 #include "io/gltf/read/context.h"
@@ -10,7 +10,7 @@
 namespace blush {
 
 // Indices of the nodes of all scenes (all nodes if the file has no scenes), ordered by scene, each once, parents before children,
-// without light fallbacks (gltf_extras.h). Errors: an index out of range, a node with two parents, a cycle.
+// without light fallbacks (extras.h). Errors: an index out of range, a node with two parents, a cycle.
 Result<std::vector<int>> reachable_nodes(const GltfContext& context);
 
 // Ids of the records that nodes reference, by glTF index.

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads members of extensions and extras with checked types and ranges.
+// Internal to io/gltf: reads members of extensions and extras with checked types and ranges.
 #pragma once
 
 #include "core/vec.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads and writes the scene selection, in `extras.blush.staging` of the default scene:
+// Internal to io/gltf: reads and writes the scene selection, in `extras.blush.staging` of the default scene:
 //
 //   {"animation": 0, "seconds": 1.5, "scene": 1, "variant": 2}     indices; absent: not chosen
 #pragma once

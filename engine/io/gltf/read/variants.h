@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads and writes KHR_materials_variants.
+// Internal to io/gltf: reads and writes KHR_materials_variants.
 #pragma once
 
 #include "io/gltf/read/context.h"

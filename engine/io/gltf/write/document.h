@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: a glTF document for editing. Parts that are not edited keep their position, spelling and meaning.
+// Internal to io/gltf: a glTF document for editing. Parts that are not edited keep their position, spelling and meaning.
 #pragma once
 
 #include "core/vec.h"

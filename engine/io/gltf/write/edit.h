@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: writes the edits of a scene into the document that it was read from.
+// Internal to io/gltf: writes the edits of a scene into the document that it was read from.
 #pragma once
 
 #include "core/result.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: writes the lights of an edited scene into the lists of their extensions.
+// Internal to io/gltf: writes the lights of an edited scene into the lists of their extensions.
 #pragma once
 
 #include "io/gltf/write/document.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: prunes objects that an edit leaves unused. Objects that were unused before are kept.
+// Internal to io/gltf: prunes objects that an edit leaves unused. Objects that were unused before are kept.
 #pragma once
 
 #include "io/gltf/write/document.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: finds all references by index between objects of a glTF document.
+// Internal to io/gltf: finds all references by index between objects of a glTF document.
 #pragma once
 
 #include "io/project/json_fields.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: writes a document and its external files.
+// Internal to io/gltf: writes a document and its external files.
 #pragma once
 
 #include "core/result.h"

@@ -1,5 +1,5 @@
-// Internal to gltf_*.cpp: writes records into objects of a document, as far as glTF and its extensions can express them. Writes
-// only values that differ from the object. gltf_write_extras.h adds the rest.
+// Internal to io/gltf: writes records into objects of a document, as far as glTF and its extensions can express them. Writes
+// only values that differ from the object. write_extras.h adds the rest.
 #pragma once
 
 #include "io/gltf/write/document.h"

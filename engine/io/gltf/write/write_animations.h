@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: writes skins and clips that were imported from another file or duplicated. Those of the document are
+// Internal to io/gltf: writes skins and clips that were imported from another file or duplicated. Those of the document are
 // not changed.
 #pragma once
 

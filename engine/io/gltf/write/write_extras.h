@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: adds values that glTF cannot express to extras.blush (gltf_extras.h). Imports the document and writes
+// Internal to io/gltf: adds values that glTF cannot express to extras.blush (io/gltf/read/extras.h). Imports the document and writes
 // every field that is not read back correctly, so that no field is lost.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: writes triangles and pixels that a document does not contain yet.
+// Internal to io/gltf: writes triangles and pixels that a document does not contain yet.
 #pragma once
 
 #include "core/result.h"

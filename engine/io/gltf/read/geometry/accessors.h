@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads accessors into typed arrays. Every offset, count and stride is checked in 64 bits before use.
+// Internal to io/gltf: reads accessors into typed arrays. Every offset, count and stride is checked in 64 bits before use.
 #pragma once
 
 #include "io/gltf/read/context.h"

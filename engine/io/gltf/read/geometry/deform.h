@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports morph targets and skinning weights of primitives.
+// Internal to io/gltf: imports morph targets and skinning weights of primitives.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: converts primitives to triangle meshes.
+// Internal to io/gltf: converts primitives to triangle meshes.
 #pragma once
 
 #include "io/gltf/read/context.h"
@@ -14,7 +14,7 @@ struct VertexNeeds {
     int tangent_uv_set = -1;  // UV set of the normal map, which needs tangents; -1: none
 };
 
-// Triangles of one primitive, with normals. Points and lines become small solids (gltf_points_lines.h). Null, with a diagnostic,
+// Triangles of one primitive, with normals. Points and lines become small solids (points_lines.h). Null, with a diagnostic,
 // if nothing remains.
 // Triangles with a non-finite corner are skipped with a warning.
 // Errors: an index or accessor out of range, arrays of unlike length, no finite triangle at all.

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: EXT_mesh_gpu_instancing, instances of a node's mesh from arrays of translations, rotations and scales.
+// Internal to io/gltf: EXT_mesh_gpu_instancing, instances of a node's mesh from arrays of translations, rotations and scales.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports meshes. Nodes that share a glTF mesh share the Mesh.
+// Internal to io/gltf: imports meshes. Nodes that share a glTF mesh share the Mesh.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: reads independent pieces of a file in parallel, with diagnostics in file order.
+// Internal to io/gltf: reads independent pieces of a file in parallel, with diagnostics in file order.
 #pragma once
 
 #include "io/gltf/read/context.h"

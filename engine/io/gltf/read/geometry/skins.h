@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports skins.
+// Internal to io/gltf: imports skins.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: decodes the images of a file in the background, within a memory limit.
+// Internal to io/gltf: decodes the images of a file in the background, within a memory limit.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: finds the image of a texture and its encoded bytes.
+// Internal to io/gltf: finds the image of a texture and its encoded bytes.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports textures and their samplers.
+// Internal to io/gltf: imports textures and their samplers.
 #pragma once
 
 #include "io/gltf/read/context.h"

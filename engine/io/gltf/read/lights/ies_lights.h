@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports EXT_lights_ies. The extension lists profiles; the nodes that use them hold intensity factor and
+// Internal to io/gltf: imports EXT_lights_ies. The extension lists profiles; the nodes that use them hold intensity factor and
 // colour.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: EXT_lights_image_based, an environment as a cube map that is prefiltered for rasterizers.
+// Internal to io/gltf: EXT_lights_image_based, an environment as a cube map that is prefiltered for rasterizers.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -1,4 +1,4 @@
-// Internal to gltf_*.cpp: imports lights of KHR_lights_punctual, EXT_lights_area and EXT_lights_ies with extras.blush, and the
+// Internal to io/gltf: imports lights of KHR_lights_punctual, EXT_lights_area and EXT_lights_ies with extras.blush, and the
 // environment.
 #pragma once
 
