@@ -9,10 +9,10 @@
 namespace blush {
 namespace {
 
-constexpr size_t enough_pixels = 65536;
+constexpr size_t min_pixels = 65536; // that are read of a larger image
 
 std::vector<float> luminances(std::span<const float> values, int channels) {
-    const size_t pixels = values.size() / size_t(channels), step = std::max<size_t>(1, pixels / enough_pixels);
+    const size_t pixels = values.size() / size_t(channels), step = std::max<size_t>(1, pixels / min_pixels);
     std::vector<float> found;
     found.reserve(pixels / step + 1);
     for (size_t i = 0; i < pixels; i += step) {

@@ -22,8 +22,8 @@ struct Options {
     int reference_samples = 4096;                     // of the reference images for errors
     std::filesystem::path cache;                      // folder that caches reference images; empty: no cache
     std::string variant;                              // the only variant of path reuse and adaptive sampling to run; empty: all
-    int64_t most_samples = 64;                        // per pixel, maximum of a series
-    double longest_seconds = 10;                      // after an edit
+    int64_t max_samples = 64;                         // per pixel, maximum of a series
+    double max_seconds = 10;                          // after an edit
     std::vector<std::filesystem::path> peer_pictures; // JSON of another renderer's pictures, for the case "quality"
     std::string only;                                 // part of the names of the scenes to measure
     std::filesystem::path scene_folder;               // of the peer comparison; empty: not given

@@ -103,7 +103,7 @@ void render_series(const BenchScene& scene, const Variant& variant, uint32_t see
     Renderer renderer({.threads = options.threads, .planes = {.albedo = true, .normal = true}});
     renderer.update(scene.scene, settings_of(variant, seed));
     double spent = 0;
-    for (int64_t done = 0, count = 1; count <= options.most_samples; done = count, count *= 2) {
+    for (int64_t done = 0, count = 1; count <= options.max_samples; done = count, count *= 2) {
         spent += cost_of([&] { renderer.render(done, count - done); }).core_seconds;
         // Adaptive sampling begins after its pilot.
         if (variant.adaptive && count <= 16) continue;

@@ -102,13 +102,13 @@ int run(int argc, char** argv) {
     app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    app.add_option("--spp", options.most_samples, "Largest number of samples per pixel in a series of pictures")->capture_default_str();
+    app.add_option("--spp", options.max_samples, "Largest number of samples per pixel in a series of pictures")->capture_default_str();
     app.add_option("--variant", options.variant,
                    "The only variant of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\"");
     app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of pictures that errors are measured against")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the cases \"pictures\" and \"quality\"");
-    app.add_option("--longest", options.longest_seconds, "Seconds after an edit up to which the case \"quality\" measures")
+    app.add_option("--longest", options.max_seconds, "Seconds after an edit up to which the case \"quality\" measures")
         ->capture_default_str();
     app.add_option("--peer", options.peer_pictures, "JSON of tests/bench/quality/cycles_pictures.py, for the case \"quality\"")
         ->check(CLI::ExistingFile);
@@ -123,7 +123,7 @@ int run(int argc, char** argv) {
         options.rounds = 2;
         options.edits = 5;
         options.reference_samples = 512;
-        options.longest_seconds = 1;
+        options.max_seconds = 1;
     }
 
     const Result<Json> report = earlier.empty() ? measured(options, names) : report_of(earlier);

@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-constexpr int64_t most_samples = int64_t(1) << 40; // per pixel; above any real render, and far below integer overflow
+constexpr int64_t max_samples = int64_t(1) << 40; // per pixel; above any real render, and far below integer overflow
 constexpr const char* dropped_plane = "dropped";
 constexpr std::array pilot_planes{"pilot.even.R", "pilot.even.G", "pilot.even.B", "pilot.odd.R", "pilot.odd.G", "pilot.odd.B"};
 constexpr double Vec3d::*channels[3] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
@@ -142,7 +142,7 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     FilmState film;
     film.width = image.width;
     film.height = image.height;
-    const auto in_range = [](int64_t n, int64_t least) { return n >= least && n <= most_samples; };
+    const auto in_range = [](int64_t n, int64_t least) { return n >= least && n <= max_samples; };
     if (!read_json(member(*json, "first_sample"), film.first_sample) || !in_range(film.first_sample, 0)) return bad("first_sample");
     if (!read_json(member(*json, "samples"), film.samples) || !in_range(film.samples, 1)) return bad("samples");
     if (!read_json(member(*json, "seconds"), film.seconds) || film.seconds < 0) return bad("seconds");

@@ -13,7 +13,7 @@ namespace blush {
 namespace {
 
 constexpr int64_t max_values = 1 << 20;
-constexpr uint64_t most_bytes = 16 << 20;
+constexpr uint64_t max_bytes = 16 << 20;
 
 // Reads lines, then numbers with arbitrary line breaks; keeps the first error.
 class Reader {
@@ -227,7 +227,7 @@ Result<IesPtr> parse_ies(std::string_view text) {
 }
 
 Result<IesPtr> read_ies(const std::filesystem::path& file) {
-    const Result<std::vector<uint8_t>> bytes = read_file(file, most_bytes);
+    const Result<std::vector<uint8_t>> bytes = read_file(file, max_bytes);
     if (!bytes) return bytes.error();
     Result<IesPtr> profile = parse_ies({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
     if (profile) return profile;

@@ -220,7 +220,7 @@ Result<LayeredImage> decode_layers(std::span<const uint8_t> bytes, const std::st
 }
 
 Result<std::vector<LayeredImage>> decode_parts(std::span<const uint8_t> bytes, const std::string& name, const ImageLimits& limits) {
-    constexpr int most_parts = 1024;
+    constexpr int max_parts = 1024;
     Result<Decoder> decoder = open_decoder(bytes, name, limits);
     if (!decoder) return decoder.error();
     std::vector<LayeredImage> parts;
@@ -231,7 +231,7 @@ Result<std::vector<LayeredImage>> decode_parts(std::span<const uint8_t> bytes, c
         if (!part) return part.error();
         parts.push_back(*std::move(part));
         ++decoder->part;
-    } while (decoder->part < most_parts && decoder->input->seek_subimage(decoder->part, 0));
+    } while (decoder->part < max_parts && decoder->input->seek_subimage(decoder->part, 0));
     for (LayeredImage& part : parts) part.more_parts = parts.size() > 1;
     return parts;
 }

@@ -78,11 +78,11 @@ private:
 
 // Channel-safe group names: printable, without dots, of limited length, unique.
 std::vector<std::string> channel_names(std::span<const std::string> names) {
-    constexpr size_t longest = 180; // OpenEXR's limit for the full channel name is 255
+    constexpr size_t max_length = 180; // OpenEXR's limit for the full channel name is 255
     std::vector<std::string> channels;
     std::set<std::string> taken;
     for (const std::string& name : names) {
-        std::string plain = name.substr(0, longest);
+        std::string plain = name.substr(0, max_length);
         for (char& c : plain)
             if (c < ' ' || c > '~' || c == '.') c = '_';
         std::string channel = plain;

@@ -13,7 +13,7 @@ namespace {
 using Kind = ConvergencePoint::Kind;
 using Row = std::vector<std::string>;
 
-constexpr size_t max_records = 64, max_lines = 20000, longest_name = 120;
+constexpr size_t max_records = 64, max_lines = 20000, max_name_length = 120;
 constexpr const char *mark_kind = "mark", *mix_kind = "mix";
 
 std::string line_number(size_t line) { return fmt::format("line {}", line); }
@@ -105,7 +105,7 @@ std::string name_of(const Line& line) {
     if (name.empty()) name = line.text("variant");
     const std::string repeat = line.text("repeat");
     if (!repeat.empty() && repeat != "0") name += ", repeat " + repeat;
-    if (name.size() > longest_name) name.resize(longest_name);
+    if (name.size() > max_name_length) name.resize(max_name_length);
     return name;
 }
 
@@ -122,7 +122,7 @@ Result<void> take(const Line& line, ConvergenceRecord& record) {
     if (kind != mark_kind && kind != mix_kind) return line.error("unknown kind");
     const Result<ConvergencePoint> at = point_of(line, Kind::estimated);
     if (!at) return at.error();
-    record.mark({at->seconds, at->spp, line.text("label").substr(0, longest_name), kind == mix_kind});
+    record.mark({at->seconds, at->spp, line.text("label").substr(0, max_name_length), kind == mix_kind});
     return {};
 }
 

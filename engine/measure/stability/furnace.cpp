@@ -12,7 +12,7 @@ namespace {
 
 constexpr float emission = 2;
 // Maximum vertices of a path (render/integrator/estimator_settings.h limits it to 100000 scattering events).
-constexpr double longest = 100001;
+constexpr double max_vertices = 100001;
 
 Scene room(const GeometryPtr& walls, float albedo) {
     Scene scene;
@@ -32,7 +32,7 @@ Findings without_roulette(const GeometryPtr& walls, float albedo) {
     RenderSettings settings = settings_for(4, 4, 1);
     settings.roulette.rule = Roulette::Rule::off;
     settings.strategy = Strategy::bsdf;
-    const double expected = series(albedo, longest), terms = std::min(longest, 1 / (1 - double(albedo)));
+    const double expected = series(albedo, max_vertices), terms = std::min(max_vertices, 1 / (1 - double(albedo)));
     return every_pixel(render_anything(room(walls, albedo), settings), expected, 4 * std::sqrt(terms) * 0x1p-24 * expected);
 }
 

@@ -22,7 +22,7 @@ using namespace denoise;
 
 constexpr std::array network_names{"rt_alb",          "rt_nrm", "rt_hdr", "rt_hdr_small", "rt_hdr_alb_nrm", "rt_hdr_alb_nrm_small",
                                    "rt_hdr_calb_cnrm"};
-constexpr int largest_side = 65536;
+constexpr int max_side = 65536;
 
 Result<void> check_plane(const PixelView& plane, const DenoiseInput& input, const char* name) {
     const size_t pixels = size_t(input.width) * input.height;
@@ -32,7 +32,7 @@ Result<void> check_plane(const PixelView& plane, const DenoiseInput& input, cons
 }
 
 Result<void> check(const DenoiseInput& input, const DenoiseOptions& options) {
-    if (input.width < 1 || input.height < 1 || input.width > largest_side || input.height > largest_side)
+    if (input.width < 1 || input.height < 1 || input.width > max_side || input.height > max_side)
         return Error{.what = fmt::format("no image to denoise: {}x{} pixels", input.width, input.height)};
     if (auto good = check_plane(input.color, input, "colour"); !good) return good;
     if (!input.albedo.values.empty())

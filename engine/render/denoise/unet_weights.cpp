@@ -8,7 +8,7 @@
 namespace blush::denoise {
 namespace {
 
-constexpr uint64_t largest_file = uint64_t(64) << 20;
+constexpr uint64_t max_file_bytes = uint64_t(64) << 20;
 constexpr uint32_t max_channels = 1024;
 
 // Moves the layer's two tensors out of the table. False if they are missing or have the wrong shape.
@@ -32,7 +32,7 @@ UnetChannels UnetWeights::channels() const {
 }
 
 Result<UnetWeights> read_unet_weights(const std::filesystem::path& file, int inputs) {
-    const auto bytes = read_file(file, largest_file);
+    const auto bytes = read_file(file, max_file_bytes);
     if (!bytes) return bytes.error();
     auto tensors = read_tza(*bytes, file.string());
     if (!tensors) return tensors.error();

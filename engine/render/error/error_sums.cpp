@@ -12,7 +12,7 @@ namespace {
 constexpr float own_share = 0.2f / 24.2f;
 // Values whose fourth powers (also of values a thousand times smaller) fit into single precision.
 constexpr double max_value = 0x1p28, min_value = 0x1p-16;
-constexpr double usual_value = 0x1p16;
+constexpr double target_value = 0x1p16; // the middle of that range
 
 double total(const Wide& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
 double largest_of(const Wide& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
@@ -236,7 +236,7 @@ ErrorSums sum_errors(const HalfBufferImage& picture, int first, int last) {
     const ErrorSums sums = BandSummer(picture, 1).sum(first, last);
     if (sums.largest == 0 || (sums.largest <= max_value && sums.largest >= min_value)) return sums;
     // If values do not fit single precision, scales the image by a power of two into the middle of the range.
-    return BandSummer(picture, std::exp2(std::round(std::log2(usual_value / sums.largest)))).sum(first, last);
+    return BandSummer(picture, std::exp2(std::round(std::log2(target_value / sums.largest)))).sum(first, last);
 }
 
 } // namespace blush

@@ -7,12 +7,12 @@
 namespace blush {
 namespace {
 
-constexpr double shortest = 380, longest = 730, grid = 0.25; // nanometres
+constexpr double min_wavelength = 380, max_wavelength = 730, grid = 0.25; // nanometres
 
 Spectrum make_spectrum() {
     std::vector<Vec3d> colors;
     Vec3d total{0, 0, 0};
-    for (double nm = shortest + grid / 2; nm < longest; nm += grid)
+    for (double nm = min_wavelength + grid / 2; nm < max_wavelength; nm += grid)
         total = total + colors.emplace_back(rec709_from_xyz(color_matching(nm)));
     // Each channel is normalised to 1, and a wavelength's probability is the mean of its channels.
     for (Vec3d& c : colors) c = {c.x / total.x, c.y / total.y, c.z / total.z};
@@ -26,7 +26,7 @@ Spectrum make_spectrum() {
         const double wanted = (step + 0.5) / Spectrum::steps;
         const auto probability = [&] { return (colors[at].x + colors[at].y + colors[at].z) / 3; };
         while (at + 1 < colors.size() && below + probability() < wanted) below += probability(), ++at;
-        spectrum.nanometres[step] = float(shortest + grid * (double(at) + (wanted - below) / probability()));
+        spectrum.nanometres[step] = float(min_wavelength + grid * (double(at) + (wanted - below) / probability()));
         rgb.push_back(colors[at] / probability());
         sum = sum + rgb.back() / double(Spectrum::steps);
     }

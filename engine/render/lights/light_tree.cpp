@@ -265,8 +265,8 @@ Vec3d cell_direction(int cell) {
 // Mean cosine of a triangle for receivers around a direction at that cosine: max(0, cosine), averaged over 0.3 to either side. Receivers
 // in the same cell, at the least distance at which a mesh is afar, see cosines that differ by less than 0.85: of these none is 0.
 float seen_share(float cosine) {
-    constexpr float blur = 0.3f, largest_difference = 0.85f, floor = 0.02f;
-    if (cosine <= -largest_difference) return 0;
+    constexpr float blur = 0.3f, max_difference = 0.85f, floor = 0.02f;
+    if (cosine <= -max_difference) return 0;
     const float above = cosine + blur;
     return floor + (cosine >= blur ? cosine : above > 0 ? above * above / (4 * blur) : 0);
 }

@@ -23,14 +23,14 @@ constexpr double refined_before = 1; // seconds between the picture of the scene
 
 constexpr double quiet_share =
     0.88; // of the time of all threads, in a run that other load does not disturb; the denoiser does not keep all busy
-constexpr int most_attempts = 5;
+constexpr int max_attempts = 5;
 
 constexpr const char* kinds[]{"light", "material", "camera", "object", "environment"};
 constexpr const char* pictures[]{"raw", "denoised"};
 
 std::vector<double> deadlines_of(const Options& options) {
     std::vector<double> deadlines{0.033, 0.1, 0.3, 1, 3, 10};
-    std::erase_if(deadlines, [&](double d) { return d > options.longest_seconds; });
+    std::erase_if(deadlines, [&](double d) { return d > options.max_seconds; });
     return deadlines;
 }
 
@@ -111,7 +111,7 @@ struct Run {
 Run least_disturbed_run(Screen& screen, const Scene& before, const Scene& edited, const RenderSettings& settings, const Options& options) {
     const std::vector<double> deadlines = deadlines_of(options);
     Run best;
-    for (int attempt = 0; attempt < most_attempts && best.share < quiet_share; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts && best.share < quiet_share; ++attempt) {
         if (const auto shown = screen.show(before, settings, refined_before); !shown) throw std::runtime_error(shown.error().text());
         Run run;
         const Cost cost = cost_of([&] { run.after = checked(screen.edit(edited, settings, deadlines)); });

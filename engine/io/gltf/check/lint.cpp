@@ -12,11 +12,11 @@
 namespace blush {
 namespace {
 
-constexpr double max_plausible_lumens = 100'000;                   // lumens: some sixty bulbs of 100 W
-constexpr double max_plausible_sun_lux = 200'000;                  // lux: the sun in space gives 130,000
-constexpr double min_plausible_sun_lux = 50;                       // lux of daylight; many web viewers use 1 to 10
-constexpr double max_plausible_nits = 1e7;                         // nits: a bulb's filament
-constexpr double max_scene_value = 50'000, smallest_scene = 0.001; // metres across
+constexpr double max_plausible_lumens = 100'000;                  // lumens: some sixty bulbs of 100 W
+constexpr double max_plausible_sun_lux = 200'000;                 // lux: the sun in space gives 130,000
+constexpr double min_plausible_sun_lux = 50;                      // lux of daylight; many web viewers use 1 to 10
+constexpr double max_plausible_nits = 1e7;                        // nits: a bulb's filament
+constexpr double max_scene_size = 50'000, min_scene_size = 0.001; // metres across
 
 // Above the rounding error of 8-bit normals.
 constexpr double unit_tolerance = 0.00674;
@@ -75,11 +75,11 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
     report_cameras(context, scene);
     const Bounds bounds = world_bounds(scene);
     const double across = 2 * bounds.radius();
-    if (!bounds.empty && across > max_scene_value)
+    if (!bounds.empty && across > max_scene_size)
         context.warn(
             fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000),
             "scene");
-    if (!bounds.empty && across > 0 && across < smallest_scene)
+    if (!bounds.empty && across > 0 && across < min_scene_size)
         context.warn(fmt::format("the scene is {:.4g} mm across; glTF's unit is the metre", across * 1000), "scene");
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 // The library allocates what the header announces. Even a flat regular grid, the best case, needs more bytes per triangle than
 // this.
-constexpr uint64_t most_faces_per_byte = 1024;
+constexpr uint64_t max_faces_per_byte = 1024;
 
 // Reads the header of a mesh (Draco bitstream 2.2, sections 2 and 3) up to the number of faces.
 class Header {
@@ -132,7 +132,7 @@ struct PackedMeshes {
         if (!bytes) return bytes.error();
         const auto faces = Header(*bytes).faces();
         if (!faces) return context.error("not a Draco mesh of bitstream 2.2", extension.where());
-        if (*faces > most_faces_per_byte * bytes->size())
+        if (*faces > max_faces_per_byte * bytes->size())
             return context.error(fmt::format("{} bytes cannot describe {} triangles", bytes->size(), *faces), extension.where());
         Packed packed{&primitive, where, *bytes};
         const GltfObject ids = extension.object("attributes");

@@ -15,7 +15,7 @@ namespace blush {
 namespace {
 
 // Highest compression ratio: equal vertices take two bits per sixteen bytes. Higher ratios are rejected before allocation.
-constexpr uint64_t most_bytes_per_byte = 64;
+constexpr uint64_t max_compression_ratio = 64;
 
 constexpr int64_t large = int64_t(1) << 28; // bytes: decoding needs hardly more
 
@@ -73,7 +73,7 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
         return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not valid for the extension", count, stride,
                                          stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
                              extension.where());
-    if (stream.unpacked_bytes() > most_bytes_per_byte * stream.bytes.size())
+    if (stream.unpacked_bytes() > max_compression_ratio * stream.bytes.size())
         return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());
     return stream;
 }

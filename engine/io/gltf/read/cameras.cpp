@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-constexpr float smallest_length = 1e-6f; // metres
+constexpr float min_length = 1e-6f; // metres
 
 Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const std::string& where) {
     Lens lens;
@@ -20,14 +20,14 @@ Lens read_lens(const GltfContext& context, const tinygltf::Camera& source, const
     if (lens.orthographic) {
         // A negative magnification mirrors the image; the specification discourages it.
         if (source.orthographic.ymag < 0) context.warn("negative magnification: the absolute value is used", where + ".orthographic.ymag");
-        lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, smallest_length, any_float, where + ".orthographic.ymag");
+        lens.ymag = checked(context, std::abs(source.orthographic.ymag), 1, min_length, any_float, where + ".orthographic.ymag");
     } else {
         constexpr float min_yfov = 1e-4f, max_yfov = std::numbers::pi_v<float> - 1e-4f;
         lens.yfov_radians = checked(context, source.perspective.yfov, lens.yfov_radians, min_yfov, max_yfov, where + ".perspective.yfov");
     }
     const GltfObject blush = GltfObject(context, source.extras, where + ".extras").object("blush");
     lens.aperture_radius = blush.number("aperture_radius", 0, 0, any_float);
-    lens.focus_distance = blush.number("focus_distance", 1, smallest_length, any_float);
+    lens.focus_distance = blush.number("focus_distance", 1, min_length, any_float);
     return lens;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* image_based_extension = "EXT_lights_image_based";
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr int largest_face = 8192;
+constexpr int max_face_size = 8192;
 
 const ParsedGltf& light_of(const ParsedGltf& root, const ParsedGltf& gltf_scene) {
     static const ParsedGltf null;
@@ -41,7 +41,7 @@ Result<ImagePtr> read_face(const GltfContext& context, const ParsedGltf& index) 
     const Result<std::span<const uint8_t>> bytes = encoded_image(context, index.get<size_t>());
     if (!bytes) return bytes.error();
     const Result<ImagePtr> face = read_environment_image(*bytes, fmt::format("images[{}]", index.get<size_t>()),
-                                                         {largest_face, int64_t(largest_face) * largest_face});
+                                                         {max_face_size, int64_t(max_face_size) * max_face_size});
     if (!face || (*face)->channels < 4) return face;
     auto image = std::make_shared<Image>(**face);
     for (size_t i = 0; i < image->floats.size(); i += 4) {

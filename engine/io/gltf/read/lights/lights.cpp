@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float radians_per_degree = pi / 180;
-constexpr float smallest_side = 1e-6f; // metres: a rectangle without area cannot emit
+constexpr float min_side = 1e-6f; // metres: a rectangle without area cannot emit
 
 void read_cone(const GltfContext& context, const tinygltf::SpotLight& spot, Light& light, const std::string& where) {
     light.outer_cone_radians = checked(context, spot.outerConeAngle, light.outer_cone_radians, 0, pi / 2, where + ".spot.outerConeAngle");
@@ -34,8 +34,8 @@ void read_legacy_extras(const GltfObject& blush, Light& light) {
     light.radius = blush.number("radius", 0, 0, any_float);
     if (const GltfObject rectangle = blush.object("rectangle")) {
         light.kind = Light::Kind::rectangle;
-        light.width = rectangle.number("width", 1, smallest_side, any_float);
-        light.height = rectangle.number("height", 1, smallest_side, any_float);
+        light.width = rectangle.number("width", 1, min_side, any_float);
+        light.height = rectangle.number("height", 1, min_side, any_float);
         light.two_sided = rectangle.boolean("two_sided", false);
     }
 }
@@ -112,10 +112,10 @@ std::optional<Light> read_area(const GltfContext& context, const ParsedGltf& sou
     light.intensity = checked(context, number(source, "intensity", 1000), 1000, 0, any_float, where + ".intensity");
     const double size = number(source, "size", 1), aspect = number(gltf_member(source, "rect"), "aspect", 1);
     if (light.kind == Light::Kind::disk) {
-        light.radius = checked(context, size / 2, 0.5f, smallest_side, any_float, where + ".size");
+        light.radius = checked(context, size / 2, 0.5f, min_side, any_float, where + ".size");
     } else {
-        light.width = checked(context, size * aspect, 1, smallest_side, any_float, where + ".rect.aspect");
-        light.height = checked(context, size, 1, smallest_side, any_float, where + ".size");
+        light.width = checked(context, size * aspect, 1, min_side, any_float, where + ".rect.aspect");
+        light.height = checked(context, size, 1, min_side, any_float, where + ".size");
     }
     read_extras(context, source, light, where);
     return light;
