@@ -31,9 +31,9 @@ private:
 };
 
 // Free ranges by first offset.
-class FreeNumbers {
+class FreeRanges {
 public:
-    explicit FreeNumbers(int64_t count) : free_{{0, count}} {}
+    explicit FreeRanges(int64_t count) : free_{{0, count}} {}
 
     std::optional<int64_t> take(int64_t count) {
         const auto found = std::ranges::find_if(free_, [&](const auto& range) { return range.second >= count; });
@@ -64,11 +64,11 @@ private:
 // Never destroyed: payloads with static lifetime return their ranges at exit.
 struct Addresses {
     std::mutex mutex;
-    FreeNumbers vertices{arena_capacity(ArenaKind::vertices)}, indices{arena_capacity(ArenaKind::indices)};
+    FreeRanges vertices{arena_capacity(ArenaKind::vertices)}, indices{arena_capacity(ArenaKind::indices)};
     std::map<Attribute, Stretch> attributes;
     std::optional<Stretch> index_stretch;
 
-    FreeNumbers& free(ArenaKind numbering) { return numbering == ArenaKind::vertices ? vertices : indices; }
+    FreeRanges& free(ArenaKind kind) { return kind == ArenaKind::vertices ? vertices : indices; }
     void* attribute(Attribute which, size_t element_bytes) {
         return attributes.try_emplace(which, element_bytes, arena_capacity(ArenaKind::vertices)).first->second.base();
     }
@@ -84,27 +84,27 @@ Addresses& addresses() {
 
 } // namespace
 
-ArenaRangePtr reserve_arena_range(ArenaKind numbering, size_t count) {
-    if (count > size_t(arena_capacity(numbering))) return {};
+ArenaRangePtr reserve_arena_range(ArenaKind kind, size_t count) {
+    if (count > size_t(arena_capacity(kind))) return {};
     Addresses& a = addresses();
     const int64_t rounded = std::max<int64_t>(1, (int64_t(count) + granule - 1) / granule) * granule;
     std::optional<int64_t> first;
     {
         const std::lock_guard lock(a.mutex);
-        const bool reserved = numbering == ArenaKind::indices ? a.index() : a.attribute(Attribute::positions, 3 * sizeof(float));
-        if (reserved) first = a.free(numbering).take(rounded);
+        const bool reserved = kind == ArenaKind::indices ? a.index() : a.attribute(Attribute::positions, 3 * sizeof(float));
+        if (reserved) first = a.free(kind).take(rounded);
     }
-    return first ? std::make_shared<const ArenaRange>(numbering, *first, rounded) : nullptr;
+    return first ? std::make_shared<const ArenaRange>(kind, *first, rounded) : nullptr;
 }
 
 ArenaRange::~ArenaRange() {
     Addresses& a = addresses();
     const std::lock_guard lock(a.mutex);
-    if (numbering_ == ArenaKind::indices)
+    if (kind_ == ArenaKind::indices)
         a.index_stretch->forget(first_, count_);
     else
         for (const auto& [attribute, stretch] : a.attributes) stretch.forget(first_, count_);
-    a.free(numbering_).give_back(first_, count_);
+    a.free(kind_).give_back(first_, count_);
 }
 
 void* detail::attribute_base(Attribute attribute, size_t element_bytes) {

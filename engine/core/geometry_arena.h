@@ -15,7 +15,7 @@ enum class ArenaKind { vertices, indices };
 // A range of element offsets that is owned exclusively. The destructor returns the offsets and their memory. Thread-safe.
 class ArenaRange {
 public:
-    ArenaRange(ArenaKind numbering, int64_t first, int64_t count) : numbering_(numbering), first_(first), count_(count) {}
+    ArenaRange(ArenaKind kind, int64_t first, int64_t count) : kind_(kind), first_(first), count_(count) {}
     ~ArenaRange();
     ArenaRange(const ArenaRange&) = delete;
     ArenaRange& operator=(const ArenaRange&) = delete;
@@ -23,18 +23,16 @@ public:
     int64_t first() const { return first_; }
 
 private:
-    ArenaKind numbering_;
+    ArenaKind kind_;
     int64_t first_, count_;
 };
 using ArenaRangePtr = std::shared_ptr<const ArenaRange>;
 
 // Reserves `count` offsets. Null if no free range is large enough or if addresses cannot be reserved (ulimit -v): arrays are then
 // on the heap and are copied.
-ArenaRangePtr reserve_arena_range(ArenaKind numbering, size_t count);
+ArenaRangePtr reserve_arena_range(ArenaKind kind, size_t count);
 // Size of the arena in elements: vertices * 4 and indices stay below 2^31, as kernels require.
-constexpr int64_t arena_capacity(ArenaKind numbering) {
-    return numbering == ArenaKind::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096;
-}
+constexpr int64_t arena_capacity(ArenaKind kind) { return kind == ArenaKind::vertices ? int64_t(1) << 29 : (int64_t(1) << 31) - 4096; }
 
 // Vertex attributes; UV set n is first_uv + n.
 enum class Attribute : int { positions, normals, tangents, colors, first_uv };

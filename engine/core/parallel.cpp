@@ -82,23 +82,23 @@ bool Workers::for_each(int64_t count, const std::function<bool()>& wanted, const
     // One long-running task per worker that takes items from a counter: items are coarse, and a worker index must be unique since
     // workers own scratch memory.
     std::atomic<int64_t> next{0}, done{0};
-    const HandOver to_workers, from_workers;
-    to_workers.give();
+    const HappensBefore to_workers, from_workers;
+    to_workers.release();
     state_->arena.execute([&] {
         tbb::parallel_for(
             0u, threads_,
             [&](unsigned worker) {
-                to_workers.receive();
+                to_workers.acquire();
                 for (int64_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
                     if (wanted && !wanted()) break;
                     task(i, worker);
                     done.fetch_add(1, std::memory_order_relaxed);
                 }
-                from_workers.give();
+                from_workers.release();
             },
             tbb::simple_partitioner());
     });
-    from_workers.receive();
+    from_workers.acquire();
     return done == count;
 }
 

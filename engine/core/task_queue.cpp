@@ -52,7 +52,7 @@ struct TaskQueue::State {
     tbb::task_arena arena;
     SamePriority priority;
     tbb::task_group group;
-    HandOver to_helpers, from_helpers;
+    HappensBefore to_helpers, from_helpers;
 
     explicit State(unsigned count) : threads(count), arena(int(count)), priority(arena) {
         if (!alone()) arena.initialize(); // initialised here to capture this thread's floating-point settings
@@ -62,16 +62,16 @@ struct TaskQueue::State {
     void begin(std::function<void()> work) {
         if (alone()) return waiting.push_back(std::move(work));
         auto held = std::make_shared<std::function<void()>>(std::move(work));
-        to_helpers.give();
+        to_helpers.release();
         group.run([this, held = std::move(held)] {
-            to_helpers.receive();
+            to_helpers.acquire();
             try {
                 (*held)();
             } catch (...) {
-                from_helpers.give(); // also after an exception
+                from_helpers.release(); // also after an exception
                 throw;
             }
-            from_helpers.give();
+            from_helpers.release();
             *held = nullptr; // released here, since the order of destruction in TBB is undefined
         });
     }
@@ -89,7 +89,7 @@ TaskQueue::~TaskQueue() {
 void TaskQueue::begin(const std::vector<int64_t>& sizes, int64_t large, std::function<void(size_t)> task) {
     using Task = std::function<void(size_t)>;
     const auto forget = [state = state_.get()](const Task* done) {
-        state->from_helpers.receive(); // the last owner
+        state->from_helpers.acquire(); // the last owner
         delete done;
     };
     const std::shared_ptr<const Task> shared(new Task(std::move(task)), forget);
@@ -122,10 +122,10 @@ void TaskQueue::finish() {
     try {
         state_->arena.execute([this] { state_->group.wait(); });
     } catch (...) {
-        state_->from_helpers.receive();
+        state_->from_helpers.acquire();
         throw;
     }
-    state_->from_helpers.receive();
+    state_->from_helpers.acquire();
 }
 
 } // namespace blush

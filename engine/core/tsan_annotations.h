@@ -1,4 +1,4 @@
-// ThreadSanitizer annotations. Writes before give() happen before reads after receive(). TBB and Embree guarantee this, but
+// ThreadSanitizer annotations. Writes before release() happen before reads after acquire(). TBB and Embree guarantee this, but
 // ThreadSanitizer cannot see it, since they are not instrumented. Also for files compiled without TSan (see CMakeLists.txt).
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace blush {
 
-class HandOver {
+class HappensBefore {
 public:
 #ifdef BLUSH_TSAN
-    void give() const { __tsan_release(const_cast<HandOver*>(this)); }
-    void receive() const { __tsan_acquire(const_cast<HandOver*>(this)); }
+    void release() const { __tsan_release(const_cast<HappensBefore*>(this)); }
+    void acquire() const { __tsan_acquire(const_cast<HappensBefore*>(this)); }
 #else
-    void give() const {}
-    void receive() const {}
+    void release() const {}
+    void acquire() const {}
 #endif
 };
 

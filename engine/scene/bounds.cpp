@@ -15,8 +15,8 @@ void include_parts(const std::vector<MeshPart>& parts, const Affined& world_from
 }
 
 // Uses the mesh's bounding box for instances: visiting the vertices of every instance would be slow.
-void include_node(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node, Bounds& bounds) {
-    const DeformedMesh mesh = deformed_mesh(scene, placements, id, node);
+void include_node(const Scene& scene, WorldTransforms& transforms, Id<Node> id, const Node& node, Bounds& bounds) {
+    const DeformedMesh mesh = deformed_mesh(scene, transforms, id, node);
     if (!node.instances) return include_parts(mesh.parts, mesh.world_from_mesh, bounds);
     Bounds box;
     include_parts(mesh.parts, Affined{}, box);
@@ -48,16 +48,16 @@ double Bounds::radius() const { return 0.5 * length(high - low); }
 
 Bounds world_bounds(const Scene& scene, Id<Node> node) {
     Bounds bounds;
-    WorldTransforms placements(scene);
-    if (const Node* n = scene.nodes.find(node)) include_node(scene, placements, node, *n, bounds);
+    WorldTransforms transforms(scene);
+    if (const Node* n = scene.nodes.find(node)) include_node(scene, transforms, node, *n, bounds);
     return bounds;
 }
 
 Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (const auto& [id, node] : scene.nodes)
-        if (node.mesh && placements(id).visible) include_node(scene, placements, id, node, bounds);
+        if (node.mesh && transforms(id).visible) include_node(scene, transforms, id, node, bounds);
     return bounds;
 }
 

@@ -130,7 +130,7 @@ template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, 
     const V cos_x = select(in_cone, V(1.f), V(cos_w * b.cos_o + sin_w * b.sin_o));
     const V sin_x = select(in_cone, V(0.f), max(V(0.f), V(sin_w * b.cos_o - cos_w * b.sin_o)));
     const V cos_p = select(cos_x > cos_b, V(1.f), V(cos_x * cos_b + sin_x * sin_b));
-    const Mask<V> shines = cos_p > b.cos_e;
+    const Mask<V> emits = cos_p > b.cos_e;
 
     // The part of the bounds above the receiver's horizon: its share, mean height and distance. Without the box, a ceiling of lights
     // seen at a grazing angle would be rated as if it were overhead; without the sphere, so would a spherical
@@ -153,7 +153,7 @@ template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, 
     const Mask<V> shaped = b.cos_e >= V(0.02f), may_turn = b.cos_o <= V(0.f) || cos_w <= V(0.f); // the sum of angles may exceed pi
 
     ChildImportance<V> c;
-    c.lit = shines && importance > V(0.f);                      // not if NaN
+    c.lit = emits && importance > V(0.f);                       // not if NaN
     c.value = select(c.lit, min(importance, V(1e36f)), V(0.f)); // their sum is finite
     c.afar = !shaped && !within && near >= afar_share * far;
     c.like = !shaped && !may_turn && !within && cos_f * near >= like_share * (cos_p * far);

@@ -126,7 +126,7 @@ Scene textured_room(float half) {
     stability::place(scene, stability::cube(true), material, stability::at({0, 0, 0}, half));
     Light bulb;
     bulb.intensity = 1000 * half * half;
-    stability::shine(scene, bulb, stability::at({0.3f * half, 0.5f * half, 0}));
+    stability::place_light(scene, bulb, stability::at({0.3f * half, 0.5f * half, 0}));
     scene.view = stability::looking({-0.9f * half, -0.9f * half, 0}, {half, -half, 0}, 0.7f);
     return scene;
 }

@@ -106,19 +106,20 @@ Json skin_parts(uint32_t n, const Options& options) {
     Scene scene = skinned_net(n);
     scene = with_pose_applied(with_scene_selection(scene, {.clip = scene.clips.begin()->id, .seconds = 1}));
     const auto skinned = std::ranges::find_if(scene.nodes, [](const auto& entry) { return bool(entry.value.skin); });
-    WorldTransforms placements(scene);
-    const Deformation bend = deformation_of(scene, placements, skinned->id, skinned->value).value();
+    WorldTransforms transforms(scene);
+    const Deformation deformation = deformation_of(scene, transforms, skinned->id, skinned->value).value();
     const GeometryPtr rest = scene.meshes.find(skinned->value.mesh)->parts[0].geometry;
     const Workers one(1), all(options.threads);
     Accel accel;
     std::vector<double> on_one, on_all, bvh;
     for (int round = 0; round < options.rounds; ++round) {
-        on_one.push_back(cost_of([&] { deformed(*rest, bend, &one); }).wall_seconds);
-        GeometryPtr bent;
-        on_all.push_back(cost_of([&] { bent = deformed(*rest, bend, &all); }).wall_seconds);
+        on_one.push_back(cost_of([&] { deformed(*rest, deformation, &one); }).wall_seconds);
+        GeometryPtr deformed_geometry;
+        on_all.push_back(cost_of([&] { deformed_geometry = deformed(*rest, deformation, &all); }).wall_seconds);
         AccelScene triangles;
-        triangles.flat.push_back(
-            {bent->serial, bent, bent->positions.data(), bent->positions.size(), bent->indices.data(), bent->triangle_count()});
+        triangles.flat.push_back({deformed_geometry->serial, deformed_geometry, deformed_geometry->positions.data(),
+                                  deformed_geometry->positions.size(), deformed_geometry->indices.data(),
+                                  deformed_geometry->triangle_count()});
         bvh.push_back(cost_of([&] { accel.commit(triangles, nullptr, all); }).wall_seconds);
     }
     return {{"vertices_one_thread_ms", rounded(1e3 * median(on_one))},

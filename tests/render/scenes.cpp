@@ -16,7 +16,7 @@ Scene floor_under_an_overflowing_bulb() {
     place(scene, floor_quad(2), lambert(0.5f));
     Light bulb;
     bulb.intensity = 1e38f;
-    shine(scene, bulb, at({0, 0.3f, 0}));
+    place_light(scene, bulb, at({0, 0.3f, 0}));
     scene.view = looking_down(1, 1);
     return scene;
 }

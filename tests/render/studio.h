@@ -27,16 +27,16 @@ struct Studio {
     Studio() {
         place(scene, floor_quad(4), lambert({0.7f, 0.6f, 0.5f}));
         place(scene, cube(false), plastic(0.3f), at({0, 0.3f, 0}, 0.3f));
-        bulb = shine(scene, lamp("Bulb", Light::Kind::point, 3, {1, 0.8f, 0.6f}), at({-1, 2, 0}));
+        bulb = place_light(scene, lamp("Bulb", Light::Kind::point, 3, {1, 0.8f, 0.6f}), at({-1, 2, 0}));
         scene.lights.set(light_of(bulb), [&] {
             Light l = light(bulb);
             l.radius = 0;
             return l;
         }());
-        panel = shine(scene, lamp("Panel", Light::Kind::rectangle, 2, {0.5f, 0.7f, 1}), aimed({1, 2, 0.5f}, {0, -1, 0}));
+        panel = place_light(scene, lamp("Panel", Light::Kind::rectangle, 2, {0.5f, 0.7f, 1}), aimed({1, 2, 0.5f}, {0, -1, 0}));
         Light sun = lamp("Sun", Light::Kind::sun, 1, {1, 1, 1});
         sun.angle_radians = 0.1f;
-        shine(scene, sun, aimed({0, 0, 0}, {0.3f, -1, 0.2f}));
+        place_light(scene, sun, aimed({0, 0, 0}, {0.3f, -1, 0.2f}));
         ball = place(scene, sphere(false), emitter(1.5f, 0.5f), at({1, 0.3f, -1}, 0.3f));
         constant_world(scene, 0.2f);
         scene.view = looking({0, 3, 4}, {0, 0.2f, 0}, 0.8f);

@@ -63,15 +63,15 @@ struct Strip {
     }
     // In the world.
     std::vector<Vec3d> positions() const {
-        WorldTransforms placements(scene);
-        const DeformedMesh mesh = deformed_mesh(scene, placements, body, *scene.nodes.find(body));
+        WorldTransforms transforms(scene);
+        const DeformedMesh mesh = deformed_mesh(scene, transforms, body, *scene.nodes.find(body));
         std::vector<Vec3d> corners;
         for (const Vec3& p : mesh.parts[0].geometry->positions) corners.push_back(transform_point(mesh.world_from_mesh, to_double(p)));
         return corners;
     }
-    GeometryPtr bent_geometry() const {
-        WorldTransforms placements(scene);
-        return deformed_mesh(scene, placements, body, *scene.nodes.find(body)).parts[0].geometry;
+    GeometryPtr deformed_geometry() const {
+        WorldTransforms transforms(scene);
+        return deformed_mesh(scene, transforms, body, *scene.nodes.find(body)).parts[0].geometry;
     }
 };
 
@@ -93,7 +93,7 @@ TEST(Skins, AJointDeformsItsVertices) {
     expect_near(corners[3], {0.25, 1.25, 0}, "between both");
     expect_near(corners[4], {-1, 0.5, 0}, "all of the turn");
     expect_near(corners[5], {-1, 1.5, 0}, "all of the turn");
-    const GeometryPtr g = strip.bent_geometry();
+    const GeometryPtr g = strip.deformed_geometry();
     expect_near(to_double(g->normals[4]), {0, 0, 1}, "the axis of the turn");
     expect_near({g->tangents[4].x, g->tangents[4].y, g->tangents[4].z}, {0, 1, 0}, "turns along");
     EXPECT_EQ(g->tangents[4].w, -1);
@@ -116,7 +116,7 @@ TEST(Skins, NormalsStayPerpendicularUnderUnevenScales) {
     slanted->normals.assign(6, {half_sqrt2, half_sqrt2, 0});
     strip.scene.meshes.set(strip.scene.nodes.find(strip.body)->mesh, {"Strip", {{slanted, {}}}});
     const double l = std::sqrt(0.25 + 1);
-    expect_near(to_double(strip.bent_geometry()->normals[0]), {0.5 / l, 1 / l, 0}, "half as steep");
+    expect_near(to_double(strip.deformed_geometry()->normals[0]), {0.5 / l, 1 / l, 0}, "half as steep");
 }
 
 TEST(MorphTargets, AreAddedByTheirWeight) {
@@ -125,7 +125,7 @@ TEST(MorphTargets, AreAddedByTheirWeight) {
     expect_near(strip.positions()[4], {-0.5, 2.5, 1}, "half of what the target adds, where the node is");
     expect_near(strip.positions()[3], {0.5, 1, 1}, "does not change");
     const double l = std::sqrt(1.5 * 1.5 + 2.5 * 2.5);
-    expect_near(to_double(strip.bent_geometry()->normals[4]), {0, 1.5 / l, 2.5 / l}, "(0, 0, 1) + 0.5 (0, 3, 3), of length 1");
+    expect_near(to_double(strip.deformed_geometry()->normals[4]), {0, 1.5 / l, 2.5 / l}, "(0, 0, 1) + 0.5 (0, 3, 3), of length 1");
 }
 
 TEST(MorphTargets, ComeBeforeSkins) {
@@ -139,9 +139,9 @@ TEST(MorphTargets, ZeroWeightsReturnTheMeshItself) {
     Strip strip;
     const GeometryPtr rest = strip.scene.meshes.begin()->value.parts[0].geometry;
     strip.change(strip.body, [](Node& n) { n.skin = {}, n.morph_weights = {0}; });
-    EXPECT_EQ(strip.bent_geometry(), rest);
+    EXPECT_EQ(strip.deformed_geometry(), rest);
     strip.change(strip.body, [](Node& n) { n.morph_weights = {}; });
-    EXPECT_EQ(strip.bent_geometry(), rest);
+    EXPECT_EQ(strip.deformed_geometry(), rest);
 }
 
 TEST(Deformation, FlatNormalsFollowTheTriangles) {
@@ -156,7 +156,7 @@ TEST(Deformation, FlatNormalsFollowTheTriangles) {
     flat->targets.push_back(fold);
     strip.scene.meshes.set(strip.scene.nodes.find(strip.body)->mesh, {"Leaf", {{flat, {}}}});
     strip.change(strip.body, [](Node& n) { n.skin = {}, n.morph_weights = {1}; });
-    const GeometryPtr folded = strip.bent_geometry();
+    const GeometryPtr folded = strip.deformed_geometry();
     for (const Vec3& n : folded->normals) EXPECT_EQ(n, (Vec3{0, -1, 0}));
 }
 
@@ -188,18 +188,18 @@ TEST(Deformation, IsTheSameForAnyNumberOfThreads) {
         g.influences.insert(g.influences.end(), {{0, 1 - t}, {1, t}});
     }
     g.targets.push_back(target);
-    Deformation bend;
-    bend.weights = {0.7f};
-    bend.joints = {Affined{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {1, 2, 3}}, Affined{{1, 0, 0.5}, {0, 2, 0}, {0, 0, 1}, {0, 0, 1}}};
+    Deformation deformation;
+    deformation.weights = {0.7f};
+    deformation.joints = {Affined{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {1, 2, 3}}, Affined{{1, 0, 0.5}, {0, 2, 0}, {0, 0, 1}, {0, 0, 1}}};
     for (const bool flat : {false, true}) {
         g.flat = flat;
-        const GeometryPtr alone = deformed(g, bend);
+        const GeometryPtr alone = deformed(g, deformation);
         EXPECT_NE(alone->positions.back(), g.positions.back());
         EXPECT_NE(alone->normals.back(), g.normals.back());
         EXPECT_NE(alone->tangents.back(), g.tangents.back());
         for (const unsigned threads : {1u, 2u, 3u, 7u}) {
             const Workers workers(threads);
-            const GeometryPtr shared = deformed(g, bend, &workers);
+            const GeometryPtr shared = deformed(g, deformation, &workers);
             EXPECT_EQ(shared->positions, alone->positions) << threads;
             EXPECT_EQ(shared->normals, alone->normals) << threads;
             EXPECT_EQ(shared->tangents, alone->tangents) << threads;

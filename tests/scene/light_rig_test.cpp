@@ -31,7 +31,7 @@ struct Model {
         node = scene.nodes.add(n);
         scene.view.position = {0, 0, 8};
     }
-    Id<Light> shine(const Light& light) {
+    Id<Light> place_light(const Light& light) {
         Node n;
         const Id<Light> id = scene.lights.add(light);
         n.light = id;
@@ -45,7 +45,7 @@ TEST(LightRig, IsOfferedWithoutLight) {
     EXPECT_FALSE(has_light(Model().scene));
 
     Model lit;
-    const Id<Light> lamp = lit.shine({});
+    const Id<Light> lamp = lit.place_light({});
     EXPECT_TRUE(has_light(lit.scene));
     for (const auto& darken :
          std::vector<std::function<void(Light&)>>{[](Light& l) { l.enabled = false; }, [](Light& l) { l.intensity = 0; },
@@ -59,7 +59,7 @@ TEST(LightRig, IsOfferedWithoutLight) {
     }
 
     Model hidden;
-    hidden.shine({});
+    hidden.place_light({});
     for (const auto& [id, node] : Scene(hidden.scene).nodes) {
         Node n = node;
         n.visible = !n.light;

@@ -25,7 +25,7 @@ struct TwoLamps {
         light.solo = solo;
         scene.lights.set(id, light);
     }
-    bool shine(Id<Light> id) const { return emits_light(*scene.lights.find(id), any_solo(scene)); }
+    bool place_light(Id<Light> id) const { return emits_light(*scene.lights.find(id), any_solo(scene)); }
 };
 
 TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
@@ -36,7 +36,7 @@ TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
                     TwoLamps s;
                     s.set(s.key, key_on, key_solo);
                     s.set(s.fill, fill_on, fill_solo);
-                    EXPECT_EQ(s.shine(s.key), key_on && (key_solo || !fill_solo)) << key_on << key_solo << fill_on << fill_solo;
+                    EXPECT_EQ(s.place_light(s.key), key_on && (key_solo || !fill_solo)) << key_on << key_solo << fill_on << fill_solo;
                 }
 }
 
@@ -45,7 +45,7 @@ TEST(Shining, ADeletedSoloLightIsIgnored) {
     s.set(s.key, true, true);
     s.scene.nodes.remove(s.scene.nodes.begin()->id);
     ASSERT_TRUE(s.scene.lights.contains(s.key)) << "the record stays";
-    EXPECT_TRUE(s.shine(s.fill));
+    EXPECT_TRUE(s.place_light(s.fill));
 }
 
 TEST(Shining, WithoutSoloTheSceneIsTheSame) {
@@ -97,14 +97,14 @@ TEST(Shining, ASurfaceMayBeSoloAndMuted) {
     s.set_glow(false, false);
     EXPECT_EQ(s.glow_applied(), 0);
     EXPECT_EQ(s.environment_applied(), 1) << "a muted surface does not mute others";
-    EXPECT_TRUE(s.shine(s.key));
+    EXPECT_TRUE(s.place_light(s.key));
     s.set_glow(true, true);
     EXPECT_EQ(s.glow_applied(), 1);
     EXPECT_EQ(s.environment_applied(), 0);
-    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_FALSE(s.place_light(s.key));
     s.set_glow(false, true);
     EXPECT_EQ(s.glow_applied(), 0) << "mute wins over solo";
-    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_FALSE(s.place_light(s.key));
     EXPECT_TRUE(with_solo_applied(with_solo_applied(s.scene)) == with_solo_applied(s.scene));
 }
 
@@ -113,13 +113,13 @@ TEST(Shining, TheEnvironmentMayBeSolo) {
     s.scene.environment.solo = true;
     EXPECT_EQ(s.environment_applied(), 1);
     EXPECT_EQ(s.glow_applied(), 0);
-    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_FALSE(s.place_light(s.key));
     EXPECT_FALSE(any_solo(with_solo_applied(s.scene)));
     s.scene.environment.lights_scene = false;
     EXPECT_FALSE(emits_light(s.scene.environment, any_solo(s.scene))) << "mute wins over solo";
-    EXPECT_FALSE(s.shine(s.key));
+    EXPECT_FALSE(s.place_light(s.key));
     s.scene.environment.kind = Environment::Kind::none;
-    EXPECT_TRUE(s.shine(s.key)) << "what is not there is not solo";
+    EXPECT_TRUE(s.place_light(s.key)) << "what is not there is not solo";
 }
 
 } // namespace

@@ -128,10 +128,10 @@ TEST(WorldTransforms, DeepChainsTakeLinearTime) {
     EXPECT_TRUE(validate(scene));
     EXPECT_EQ(world_bounds(scene).high.x, 0.5 + 0.25 * (depth - 10));
 
-    WorldTransforms placements(scene);
-    for (const auto& [id, unused] : scene.nodes) EXPECT_EQ(placements(id).visible, id.value <= depth - 10);
+    WorldTransforms transforms(scene);
+    for (const auto& [id, unused] : scene.nodes) EXPECT_EQ(transforms(id).visible, id.value <= depth - 10);
     for (const uint32_t id : {1u, 2u, 777u, uint32_t(depth)})
-        EXPECT_EQ(placements({id}).world_from_node, world_from_node(scene, {id})) << id;
+        EXPECT_EQ(transforms({id}).world_from_node, world_from_node(scene, {id})) << id;
 }
 
 TEST(IsVisible, NeedsAllAncestors) {

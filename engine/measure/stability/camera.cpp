@@ -40,7 +40,7 @@ Findings shape(int width, int height) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 3;
-    shine(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
+    place_light(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
     scene.view = looking_down(1, 1);
     const Picture picture = render(scene, settings_for(width, height, 1));
     const double expected = double(0.8f) * 3 / std::numbers::pi;

@@ -52,7 +52,7 @@ Findings in_the_dark() {
     Light off;
     off.enabled = false;
     off.intensity = 1e6f;
-    shine(scene, off, at({0.5f, 0.5f, 0.5f}));
+    place_light(scene, off, at({0.5f, 0.5f, 0.5f}));
     return every_pixel(render(scene, settings_for(16, 16, 8)), 0);
 }
 

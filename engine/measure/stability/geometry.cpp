@@ -25,7 +25,7 @@ void add_sun(Scene& scene, const Vec3& direction) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = lux;
-    shine(scene, sun, aimed({0, 0, 0}, direction));
+    place_light(scene, sun, aimed({0, 0, 0}, direction));
 }
 
 // Pixel value of a floor under the sun.
@@ -152,7 +152,7 @@ Findings scaled_area_light(const Vec3& scale) {
     light.intensity = 3;
     Transform pose = aimed({0.2f, 1, 0.1f}, {0.1f, -1, 0.2f});
     pose.scale = scale;
-    shine(scene, light, pose);
+    place_light(scene, light, pose);
     const auto corners = rectangle_corners(light, pose);
     const bool shines_down = scale.z > 0;
     return quarters(scene, [&](const Vec3d& x) { return shines_down ? 3 * polygon_irradiance(x, up, corners) : 0; });

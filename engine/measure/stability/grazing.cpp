@@ -24,7 +24,7 @@ Findings sunlit(double degrees) {
     sun.kind = Light::Kind::sun;
     sun.intensity = 3;
     const Transform pose = aimed({0, 0, 0}, -skimming(degrees));
-    shine(scene, sun, pose);
+    place_light(scene, sun, pose);
     scene.view = looking_down(0.9f, 1);
     const double cos = to_affine(pose.rotation).z.y;
     return every_pixel(render(scene, settings_for(8, 8, 1)), double(0.8f) / std::numbers::pi * 3 * cos);

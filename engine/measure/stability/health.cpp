@@ -60,7 +60,7 @@ Findings beside(auto&& add_broken) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 2;
-    shine(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
+    place_light(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
     add_broken(scene);
     scene.view = looking_down(1, 1);
     return sound(scene, 0.5 * 2 / std::numbers::pi);
@@ -94,7 +94,7 @@ void add_bad_material(Scene& scene) {
 void add_bad_light(Scene& scene) {
     Light bulb;
     bulb.intensity = nan;
-    shine(scene, bulb, at({0, 1, 0}));
+    place_light(scene, bulb, at({0, 1, 0}));
 }
 
 } // namespace

@@ -33,7 +33,7 @@ FloorIrradiance of_point(const Vec3d& p, double candela) {
 
 Findings area_light(const Light& light, const Transform& pose) {
     Scene scene;
-    shine(scene, light, pose);
+    place_light(scene, light, pose);
     const auto corners = rectangle_corners(light, pose);
     return quarters(scene, [&](const Vec3d& x) { return double(light.intensity) * polygon_irradiance(x, up, corners); });
 }
@@ -41,7 +41,7 @@ const Transform overhead = aimed({0, 1, 0}, {0, -1, 0});
 
 Findings candle(float candela, float height) {
     Scene scene;
-    shine(scene, light_of(Light::Kind::point, candela), at({0, height, 0}));
+    place_light(scene, light_of(Light::Kind::point, candela), at({0, height, 0}));
     return quarters(scene, of_point({0, double(height), 0}, double(candela)));
 }
 
@@ -49,7 +49,7 @@ Findings ball(float radius) {
     Scene scene;
     Light light = light_of(Light::Kind::point, 5);
     light.radius = radius;
-    shine(scene, light, at({0, 2, 0}));
+    place_light(scene, light, at({0, 2, 0}));
     return quarters(scene, of_point({0, 2, 0}, 5));
 }
 
@@ -58,7 +58,7 @@ Findings sun(float angle) {
     Light light = light_of(Light::Kind::sun, 7);
     light.angle_radians = angle;
     const Transform pose = aimed({0, 0, 0}, {1, -1, 0.5f});
-    shine(scene, light, pose);
+    place_light(scene, light, pose);
     const double cos = to_affine(pose.rotation).z.y;
     return quarters(scene, [cos](const Vec3d&) { return 7 * cos; });
 }
@@ -67,7 +67,7 @@ Findings sun(float angle) {
 Findings slit(float width, int64_t spp) {
     Scene scene;
     const Light light = square(2, 100);
-    shine(scene, light, aimed({0, 2, 0}, {0, -1, 0}));
+    place_light(scene, light, aimed({0, 2, 0}, {0, -1, 0}));
     const float w = width / 2;
     place(scene, quad({-60, 1, 60}, {-w, 1, 60}, {-w, 1, -60}, {-60, 1, -60}), lambert(0.f));
     place(scene, quad({w, 1, 60}, {60, 1, 60}, {60, 1, -60}, {w, 1, -60}), lambert(0.f));
@@ -84,8 +84,8 @@ Findings slit(float width, int64_t spp) {
 Findings candle_under_a_roof() {
     Scene scene;
     place(scene, floor_quad(1000, 3), lambert(0.f));
-    shine(scene, light_of(Light::Kind::sun, 1e5f), aimed({0, 0, 0}, {0.1f, -1, 0}));
-    shine(scene, light_of(Light::Kind::point, 1), at({0, 1, 0}));
+    place_light(scene, light_of(Light::Kind::sun, 1e5f), aimed({0, 0, 0}, {0.1f, -1, 0}));
+    place_light(scene, light_of(Light::Kind::point, 1), at({0, 1, 0}));
     return quarters(scene, of_point({0, 1, 0}, 1), settings_for(16, 16, 1024));
 }
 
@@ -93,8 +93,8 @@ Findings candle_under_a_roof() {
 Findings strong_and_weak() {
     Scene scene;
     const Light weak = square(1, 1e-6f);
-    shine(scene, weak, overhead);
-    shine(scene, square(1, 1e12f), aimed({0, 1.5f, 0}, {0, 1, 0}));
+    place_light(scene, weak, overhead);
+    place_light(scene, square(1, 1e12f), aimed({0, 1.5f, 0}, {0, 1, 0}));
     const auto corners = rectangle_corners(weak, overhead);
     return quarters(
         scene, [&](const Vec3d& x) { return 1e-6f * polygon_irradiance(x, up, corners); }, settings_for(16, 16, 256));

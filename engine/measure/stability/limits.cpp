@@ -73,7 +73,7 @@ Findings terminator() {
     sun.kind = Light::Kind::sun;
     sun.intensity = float(std::numbers::pi);
     const Vec3 direction{1, -0.3f, 0.2f};
-    shine(scene, sun, aimed({0, 0, 0}, direction));
+    place_light(scene, sun, aimed({0, 0, 0}, direction));
     scene.view = looking({0, 0, 4}, {0, 0, 0}, 1);
     scene.view.lens.orthographic = true;
     scene.view.lens.ymag = 0.7f;
@@ -165,7 +165,7 @@ Findings sun_through_solid_glass() {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = float(std::numbers::pi);
-    shine(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    place_light(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
     scene.view = looking_down(0.5f, 0.5f);
     RenderSettings settings = settings_for(16, 16, 4);
     settings.max_bounces = 3; // direct light through the plate

@@ -30,7 +30,7 @@ Scene still_life(float scale, const Vec3& away) {
     Light lamp;
     lamp.kind = Light::Kind::rectangle;
     lamp.intensity = 4;
-    hang(shine(scene, lamp, aimed({0.4f, 2.2f, 0.3f}, {-0.2f, -1, 0})));
+    hang(place_light(scene, lamp, aimed({0.4f, 2.2f, 0.3f}, {-0.2f, -1, 0})));
     constant_world(scene, 0.2f);
     scene.view = looking({0, 2, 4}, {0, 0.25f, 0}, 0.6f);
     scene.view.position = scene.view.position * scale + away;
@@ -67,7 +67,7 @@ Findings sunlit_ball(float scale, const Vec3& centre) {
     sun.kind = Light::Kind::sun;
     sun.intensity = lux;
     const Vec3 direction{1, -1, 0.5f};
-    shine(scene, sun, aimed({0, 0, 0}, direction));
+    place_light(scene, sun, aimed({0, 0, 0}, direction));
     scene.view = looking({0, 0, 0}, {0, 0, -1}, 1);
     scene.view.position = centre + Vec3{0, 0, 4 * scale};
     scene.view.lens.orthographic = true;

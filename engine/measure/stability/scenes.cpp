@@ -133,7 +133,7 @@ Id<Node> place(Scene& scene, const GeometryPtr& geometry, const Material& materi
     node.mesh = scene.meshes.add({"", {{geometry, scene.materials.add(material)}}});
     return scene.nodes.add(node);
 }
-Id<Node> shine(Scene& scene, const Light& light, const Transform& transform) {
+Id<Node> place_light(Scene& scene, const Light& light, const Transform& transform) {
     Node node;
     node.local = transform;
     node.light = scene.lights.add(light);

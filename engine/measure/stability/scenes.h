@@ -35,7 +35,7 @@ Material unlit(const Vec3& color);
 // ---- scene assembly
 
 Id<Node> place(Scene& scene, const GeometryPtr& geometry, const Material& material, const Transform& transform = {});
-Id<Node> shine(Scene& scene, const Light& light, const Transform& transform);
+Id<Node> place_light(Scene& scene, const Light& light, const Transform& transform);
 Id<Texture> add_texture(Scene& scene, const ImagePtr& image, Texture::Filter filter = Texture::Filter::nearest);
 void constant_world(Scene& scene, float nits);
 // An image of width x height RGB values.

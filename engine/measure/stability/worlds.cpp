@@ -66,7 +66,7 @@ Findings sun_in_a_mirror(float angle) {
     sun.kind = Light::Kind::sun;
     sun.intensity = 5;
     sun.angle_radians = angle;
-    shine(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
+    place_light(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
     // Looks down from 1 m; the reflected disk covers about a quarter of the image.
     const float half = angle;
     scene.view = looking({0, 1, 0}, {0, 0, 0}, 2 * half);

@@ -279,17 +279,17 @@ constexpr uint64_t min_memory_to_build = uint64_t(128) << 20;
 // Embree's threads count into it. They begin after its construction, which ThreadSanitizer cannot see.
 struct MemoryCounter {
     std::atomic<int64_t> bytes{0};
-    HandOver constructed, counted;
+    HappensBefore constructed, counted;
 
-    MemoryCounter() { constructed.give(); }
-    ~MemoryCounter() { counted.receive(); }
+    MemoryCounter() { constructed.release(); }
+    ~MemoryCounter() { counted.acquire(); }
 };
 
 bool count_memory(void* user, ssize_t bytes, bool) {
     MemoryCounter& counter = *static_cast<MemoryCounter*>(user);
-    counter.constructed.receive();
+    counter.constructed.acquire();
     counter.bytes.fetch_add(bytes, std::memory_order_relaxed);
-    counter.counted.give();
+    counter.counted.release();
     return true;
 }
 

@@ -13,12 +13,12 @@ class DeformedMeshes {
 public:
     // Gives each node with a deformed mesh its own mesh. `posed`: a scene with its pose applied (scene/animation/pose.h). `workers` as in
     // deformed().
-    void bend(Scene& posed, const Workers* workers);
+    void deform(Scene& posed, const Workers* workers);
 
 private:
     struct Entry {
         std::vector<MeshPart> rest;
-        Deformation bend;
+        Deformation deformation;
         std::vector<GeometryPtr> parts;
     };
     std::map<Id<Node>, Entry> known_;
@@ -28,6 +28,6 @@ private:
 constexpr uint32_t deformed_id_bit = 0x40000000u;
 
 // World transform of a node's mesh in such a scene; skinned meshes are relative to their first joint (scene/animation/deform.h).
-Affined world_from_mesh(const Scene& expanded, WorldTransforms& placements, Id<Node> id, const Node& node);
+Affined world_from_mesh(const Scene& expanded, WorldTransforms& transforms, Id<Node> id, const Node& node);
 
 } // namespace blush

@@ -75,7 +75,7 @@ Scene expand_area_lights(const Scene& whole, ExpandedMeshes* known, const Worker
     ExpandedMeshes none;
     ExpandedMeshes& meshes = known ? *known : none;
     meshes.tangents.provide(scene);
-    meshes.bent.bend(scene, workers);
+    meshes.deformed.deform(scene, workers);
     ExtendedTable<Node>::Records bodies;
     ExtendedTable<Mesh>::Records shapes;
     ExtendedTable<Material>::Records emitters;

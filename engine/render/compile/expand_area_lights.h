@@ -10,8 +10,8 @@
 
 namespace blush {
 
-// Records that expansion added to a table. The same records added to the same table give the table of last time, so that comparing two
-// expanded scenes need not read it.
+// A table with the records that expansion adds. If neither the table nor the records changed, returns the table of the last call, which
+// shares storage with its copies: comparing two expanded scenes then does not read it.
 template <class T> class ExtendedTable {
 public:
     using Records = std::vector<typename Table<T>::Entry>;
@@ -32,7 +32,7 @@ private:
 // Cache of what expansion made last time.
 struct ExpandedMeshes {
     TangentMeshes tangents;
-    DeformedMeshes bent;
+    DeformedMeshes deformed;
     ExtendedTable<Node> nodes;
     ExtendedTable<Mesh> meshes;
     ExtendedTable<Material> materials;
@@ -40,7 +40,7 @@ struct ExpandedMeshes {
 
 // Returns the scene with solo (light_visibility.h) and its pose (posed_scene.h) applied and every rectangle and disk light
 // replaced by an emissive mesh below its node (expanded_lights.h). A disk becomes a polygon of the same area with disk_corners()
-// corners (light_limits.h). With the most corners, area sampling is identical and the flux differs from the circle's by less than
+// corners (light_limits.h). With max_disk_corners, area sampling is identical and the flux differs from the circle's by less than
 // a millionth, and kernels need no special case. The mesh of a disabled light is black (is_disabled_mesh). Meshes that need tangents
 // get them (tangent_meshes.h), and deforming meshes are deformed (deformed_meshes.h). `known` caches meshes and tables between
 // calls. `workers` share the deformation of large meshes, which does not change the result.

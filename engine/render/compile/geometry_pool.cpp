@@ -93,8 +93,8 @@ size_t placed_parts(const SceneObject& object) { return object.copies() * object
 bool is_padded(const Geometry& geometry) { return arena_offsets(geometry) || geometry.positions.capacity() > geometry.positions.size(); }
 
 // Address of element 0 of an array: without an arena, its own start.
-template <class T> const T* base_of(const GeometryArray<T>& own, bool numbered, Attribute attribute) {
-    return numbered ? attribute_base<T>(attribute) : own.data();
+template <class T> const T* base_of(const GeometryArray<T>& own, bool reserved, Attribute attribute) {
+    return reserved ? attribute_base<T>(attribute) : own.data();
 }
 
 // An empty array with capacity for `count`, at its arena range if there is one.
@@ -138,15 +138,15 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
             indices += g.indices.size();
         }
     }
-    vertex_numbers_ = reserve_arena_range(ArenaKind::vertices, vertices);
-    index_numbers_ = reserve_arena_range(ArenaKind::indices, indices);
-    const bool numbered = vertex_numbers_ && index_numbers_;
+    vertex_range_ = reserve_arena_range(ArenaKind::vertices, vertices);
+    index_range_ = reserve_arena_range(ArenaKind::indices, indices);
+    const bool reserved = vertex_range_ && index_range_;
     if (vertices > size_t(arena_capacity(ArenaKind::vertices)) || indices > size_t(arena_capacity(ArenaKind::indices)) ||
-        (in_place && !numbered))
+        (in_place && !reserved))
         throw std::runtime_error("the scene has more vertices than 32-bit indices reach");
-    if (!numbered) vertex_numbers_ = index_numbers_ = {};
-    first_vertex_ = numbered ? int32_t(vertex_numbers_->first()) : 0;
-    first_index_ = numbered ? int32_t(index_numbers_->first()) : 0;
+    if (!reserved) vertex_range_ = index_range_ = {};
+    first_vertex_ = reserved ? int32_t(vertex_range_->first()) : 0;
+    first_index_ = reserved ? int32_t(index_range_->first()) : 0;
     if (parts > max_instance_parts) throw std::runtime_error("the scene has more instances than 32-bit indices reach");
     parts_.reserve(parts);
     part_materials_.reserve(parts);
@@ -154,14 +154,14 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
     part_vertices_.reserve(parts);
     instances_.reserve(instances);
     instance_first_part_.reserve(instances);
-    indices_ = with_room(indices, index_numbers_, index_base());
+    indices_ = with_room(indices, index_range_, index_base());
     const auto make_room = [&](auto& array, Attribute attribute) {
         using T = std::decay_t<decltype(array)>::value_type;
-        array = with_room(vertices, vertex_numbers_, attribute_base<T>(attribute));
+        array = with_room(vertices, vertex_range_, attribute_base<T>(attribute));
     };
     make_room(positions_, Attribute::positions);
-    all_positions_ = base_of(positions_, numbered, Attribute::positions);
-    all_indices_ = numbered ? index_base() : indices_.data();
+    all_positions_ = base_of(positions_, reserved, Attribute::positions);
+    all_indices_ = reserved ? index_base() : indices_.data();
     if (has_normals_) make_room(normals_, Attribute::normals);
     if (needs_.tangents) make_room(tangents_, Attribute::tangents);
     if (needs_.colors) make_room(colors_, Attribute::colors);
@@ -330,7 +330,7 @@ int64_t GeometryPool::degenerate_count() const {
 
 void GeometryPool::fill(SceneTables& t) const {
     const auto pointer = [&](const auto& own, Attribute attribute, bool used) {
-        const auto* base = used ? base_of(own, vertex_numbers_ != nullptr, attribute) : nullptr;
+        const auto* base = used ? base_of(own, vertex_range_ != nullptr, attribute) : nullptr;
         return base ? &base->x : nullptr;
     };
     t.parts = parts_.data();

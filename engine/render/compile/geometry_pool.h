@@ -102,7 +102,7 @@ private:
     size_t largest_instanced_mesh_ = 0;
     bool has_normals_ = false;
     // Arena ranges of the own arrays. If the arena is unavailable, nothing is read in place.
-    ArenaRangePtr vertex_numbers_, index_numbers_;
+    ArenaRangePtr vertex_range_, index_range_;
     int32_t first_vertex_ = 0, first_index_ = 0;
     // From arena element 0: own data and data read in place.
     const Vec3* all_positions_ = nullptr;

@@ -45,11 +45,11 @@ std::string node_label(const Scene& scene, Id<Node> id) {
 std::vector<SceneObject> list_objects(const Scene& scene, std::vector<Diagnostic>* left_out) {
     std::vector<SceneObject> objects;
     std::map<Id<Mesh>, int> uses;
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
-        if (!mesh || !placements(id).visible) continue;
-        SceneObject object{id, {}, world_from_mesh(scene, placements, id, node), false, node.instances, is_disabled_mesh(scene, id)};
+        if (!mesh || !transforms(id).visible) continue;
+        SceneObject object{id, {}, world_from_mesh(scene, transforms, id, node), false, node.instances, is_disabled_mesh(scene, id)};
         for (const MeshPart& part : mesh->parts)
             if (part.geometry && part.geometry->triangle_count() > 0) object.parts.push_back(part);
         if (object.parts.empty() || object.copies() == 0) continue;

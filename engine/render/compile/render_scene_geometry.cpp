@@ -75,10 +75,10 @@ bool RenderScene::move_area_lights(const Scene& scene, const std::vector<Id<Node
     if (moved.empty()) return true;
     std::map<Id<Node>, size_t> area_lights;
     for (const size_t i : area_lights_) area_lights.emplace(objects_[i].node, i);
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     std::vector<std::pair<size_t, Affined>> places;
     for (const Id<Node> id : moved) {
-        const NodeTransform& place = placements(id);
+        const NodeTransform& place = transforms(id);
         if (!place.visible) continue;
         const auto area_light = area_lights.find(id);
         if (area_light == area_lights.end() || objects_[area_light->second].instanced || !is_finite(place.world_from_node)) return false;

@@ -65,7 +65,7 @@ struct RowSums {
 class BandSummer {
 public:
     BandSummer(const HalfBufferImage& picture, double scale)
-        : picture_(picture), scale_(scale), divisor_(scale), surroundings_(picture.width, picture.height), above_(picture.width),
+        : picture_(picture), scale_(scale), divisor_(scale), neighborhood_(picture.width, picture.height), above_(picture.width),
           now_(picture.width), around_{PixelRow(picture.width), PixelRow(picture.width)}, root_(picture.width), pixels_(picture.width) {
         rows_.fill(HalfBufferRow(picture.width));
     }
@@ -93,7 +93,7 @@ private:
 
     void load_row(int y) {
         picture_.load(y, float(scale_), row_at(y));
-        surroundings_.add_row(row_at(y).own, y);
+        neighborhood_.add_row(row_at(y).own, y);
     }
 
     // Also leaves the row's differences in now_.
@@ -108,7 +108,7 @@ private:
             store(to_root + x, sqrt(wa * (1 - wa)));
         }
         for (size_t c = 0; c < 3; ++c) {
-            surroundings_.means(c, y, row.own[c], around_);
+            neighborhood_.means(c, y, row.own[c], around_);
             add_channel(row, c, sums);
         }
         const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
@@ -203,7 +203,7 @@ private:
     const HalfBufferImage& picture_;
     double scale_;
     Divisor divisor_;
-    NeighborhoodFilter surroundings_;
+    NeighborhoodFilter neighborhood_;
     std::array<HalfBufferRow, kept> rows_;
     Differences above_, now_;
     NeighborhoodFilter::NeighborhoodMeans around_; // of one channel

@@ -12,13 +12,14 @@
 
 namespace blush {
 
-// Renders the same samples of some tiles, spread over the film, without and with path reuse in groups of `group_size` pixels. Both
-// trace the same paths; only the connections differ. The samples have a seed of their own, so that the result does not depend on
-// those of the image, and it is the same for any number of threads and any instruction set.
+// Renders some tiles, spread over the film, twice with the same samples: without path reuse, and with groups of `group_size` pixels.
+// Both renders trace the same paths; only the connections differ. Their seed differs from that of the image, so the result does not
+// depend on the image's samples. It is the same for any number of threads and any instruction set.
 //
-// The error is that of the halves of the samples, which are independent randomisations of the sampler: its square is the variance of
-// stratified samples. MSE sums it over the pixels as it is, relMSE divided by the mean of the tile. The mean of a pixel would hide
-// fireflies, and count one that path reuse has spread over eight pixels eight times. Work is counted in rays, not in time.
+// The error of a pixel is half the difference of its two half buffers, which are independent randomisations of the sampler: its square
+// estimates the variance of stratified samples. MSE is the sum of these squares; relMSE divides them by the squared mean of the tile.
+// The mean of the pixel is no divisor: it would hide fireflies, and count a firefly that path reuse has spread over eight pixels eight
+// times. Cost is counted in rays, not in time.
 //
 // `context` as for the film at full resolution, its seed and groups aside. `scratch`: one per worker, allocated if needed. Empty if
 // `wanted` returned false.

@@ -27,8 +27,9 @@ class SampleAllocation {
 public:
     static constexpr int tile_size = 16;         // pixels along a side
     static constexpr int64_t pilot_samples = 16; // of each pixel, both halves together
-    // Of the mean. The pilot misses rare events and takes a noisy tile for a quiet one: this bounds the variance of every tile by
-    // 4/3 of that of uniform sampling. A smaller share gains little where the pilot is right.
+    // Least number of samples of a tile, as a share of the mean number. The pilot can miss rare events, so that a noisy tile seems to
+    // have little noise: with this share the variance of each tile is at most 4/3 of that of uniform sampling. A smaller share gains
+    // little where the pilot is right.
     static constexpr double min_share = 0.75;
     static constexpr double max_share = 8;    // of the mean: limits the effect of one firefly
     static constexpr int64_t granularity = 4; // samples: whole strata of the sampler, and enough paths for a packet

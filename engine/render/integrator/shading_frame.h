@@ -57,10 +57,10 @@ template <Features S, class F> ShadingFrame<F> shading_frame_at(const Surface<F>
                                                                 const Vec<F>& wo_world, const Mask<F>& front, const Mask<F>& solid) {
     ShadingFrame<F> s;
     s.ng = select<F>(front || solid, surface.ng, -surface.ng);
-    const Vec<F> bent = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
+    const Vec<F> normal = shading_normal<S, F>(surface, s.ng, material.tangent_normal);
     // If the viewer sees the back of the shading normal, uses the geometric normal, except on solids.
-    s.behind = !solid && dot(bent, wo_world) < F(min_facing);
-    s.ns = select<F>(s.behind, s.ng, bent);
+    s.behind = !solid && dot(normal, wo_world) < F(min_facing);
+    s.ns = select<F>(s.behind, s.ng, normal);
     s.frame = shading_frame<S, F>(surface, s.ns, material);
     s.wo = s.frame.to_local(wo_world);
     // The coat does not follow the normal map of the base.

@@ -42,11 +42,11 @@ public:
     Scene baked() {
         // Without groups, channels have no effect.
         if (scene_.mix.grouping == LightMix::Grouping::none || groups_.groups.empty()) return cleared();
-        WorldTransforms placements(scene_);
+        WorldTransforms transforms(scene_);
         Uses<Light> lights;
         Uses<Material> materials;
         for (const auto& [id, node] : scene_.nodes) {
-            if (!placements(id).visible) continue;
+            if (!transforms(id).visible) continue;
             if (groups_.light_nodes.contains(id)) lights[node.light][first_alike(groups_.of_light(id))].push_back(id);
             if (const Mesh* mesh = scene_.meshes.find(node.mesh))
                 for (const MeshPart& part : mesh->parts)

@@ -35,9 +35,9 @@ public:
 
     LightGroups made() {
         if (scene_.environment.kind != Environment::Kind::none) groups_.environment = add_environment();
-        WorldTransforms placements(scene_);
+        WorldTransforms transforms(scene_);
         for (const auto& [id, node] : scene_.nodes) {
-            if (id.value & expanded_id_bit || !placements(id).visible) continue;
+            if (id.value & expanded_id_bit || !transforms(id).visible) continue;
             if (const Light* light = scene_.lights.find(node.light)) add_light(id, node, *light);
             if (const Mesh* mesh = scene_.meshes.find(node.mesh)) add_surfaces(id, node, *mesh);
         }

@@ -12,23 +12,25 @@ namespace blush {
 
 class Workers;
 
-// The directions that light sampling aims at. compensated: those where the map is brighter than its mean, with a density
-// proportional to the difference, because BSDF sampling covers the even part well: MIS compensation (Karlik et al. 2019, "MIS
-// Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 4.1). compensated_alone: less is left out,
-// because no other light takes samples of light sampling. An even map is not sampled at all. Compensation is for MIS only: where the
-// density is 0, BSDF samples have weight 1.
+// Density of light sampling over directions.
+// full: proportional to luminance.
+// compensated: proportional to the luminance above the map's mean, because BSDF sampling covers the even part well. This is MIS
+// compensation (Karlik et al. 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 4.1).
+// compensated_alone: for scenes without other lights, subtracts less than the mean. All samples of light sampling then go to the map.
+// Maps that are nearly uniform are not sampled at all (sampled_share). Compensation requires MIS: where the density is 0, BSDF samples
+// have weight 1.
 enum class EnvironmentSampling { none, full, compensated, compensated_alone };
 
 struct EnvironmentTable {
     // Size of the image; a constant environment is one white texel, no environment is one black texel.
     int32_t width = 0, height = 0, guide_bits = 1;
-    ImagePtr image;            // whose values are the texels; null if they had to be changed or copied
-    std::vector<float> texels; // else these
+    ImagePtr image;            // its values are the texels; null if they had to be changed or copied
+    std::vector<float> texels; // the changed copy, if `image` is null
     std::vector<uint32_t> row_thresholds, column_thresholds;
     std::vector<int32_t> column_guides;
     std::vector<EnvironmentRow> rows;
     Vec3d texel_integral{0, 0, 0}; // integral of the map over the sphere, sr; only with an importance map
-    double sampled_share = 0;      // of that integral's luminance: the part that light sampling aims at; 0: directions are not sampled
+    double sampled_share = 0;      // share of that integral's luminance that light sampling covers; 0: directions are not sampled
     EnvironmentSampling sampling = EnvironmentSampling::none;
     bool emits_light = false; // some texel is not black
     std::vector<Diagnostic> warnings;

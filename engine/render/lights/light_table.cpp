@@ -75,11 +75,11 @@ LightBounds sphere_bounds(const Vec3& center, double radius, const Light& light,
 }
 
 void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLight>& spheres, const Vec3d& origin) {
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     b.table.first_sphere = int32_t(b.table.records.size());
     for (const SphereLight& sphere : spheres) {
         const Light& light = *scene.lights.find(sphere.light);
-        const LightProfiles::Added profile = b.table.profiles.add(light, placements(sphere.node).world_from_node);
+        const LightProfiles::Added profile = b.table.profiles.add(light, transforms(sphere.node).world_from_node);
         LightRecord record{};
         record.kind = int32_t(LightKind::sphere);
         record.profile = profile.profile;
@@ -91,7 +91,7 @@ void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLi
         record.emission = light.enabled ? light_emission(light) : Vec3{0, 0, 0};
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
-        const LightBounds bounds = sphere_bounds(record.position, sphere.radius, light, placements(sphere.node).world_from_node);
+        const LightBounds bounds = sphere_bounds(record.position, sphere.radius, light, transforms(sphere.node).world_from_node);
         b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share, &bounds);
     }
 }
@@ -116,11 +116,11 @@ void add_sun(TableBuilder& b, const LightRecord& record, Id<Node> node, double l
 }
 
 void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node>>& nodes, double scene_radius, const Vec3d& origin) {
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (const Id<Node> id : nodes) {
         const Light* light = scene.lights.find(scene.nodes.find(id)->light);
-        if (!light->enabled || is_area_light(*light) || is_sphere_light(*light) || !placements(id).visible) continue;
-        const Affined& world = placements(id).world_from_node;
+        if (!light->enabled || is_area_light(*light) || is_sphere_light(*light) || !transforms(id).visible) continue;
+        const Affined& world = transforms(id).world_from_node;
         const Vec3 emission = light_emission(*light);
         if (light->kind == Light::Kind::sun) {
             LightRecord record = sun_record(to_float(normalize(world.z)), light->angle_radians, emission);
@@ -143,14 +143,14 @@ void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node
 // A part of the samples is distributed uniformly over all lights (uniform_share).
 std::vector<double> with_defensive_mixture(std::span<const double> powers, std::span<const double> factors) {
     std::vector<double> weights(powers.begin(), powers.end());
-    double total = 0, shining = 0;
+    double total = 0, emitting = 0;
     for (size_t i = 0; i < weights.size(); ++i) {
         if (!factors.empty()) weights[i] *= factors[i];
         total += weights[i];
-        shining += powers[i] > 0;
+        emitting += powers[i] > 0;
     }
     for (size_t i = 0; i < weights.size(); ++i)
-        if (powers[i] > 0) weights[i] = (1 - uniform_share) * (total > 0 ? weights[i] / total : 0) + uniform_share / shining;
+        if (powers[i] > 0) weights[i] = (1 - uniform_share) * (total > 0 ? weights[i] / total : 0) + uniform_share / emitting;
     return weights;
 }
 
@@ -237,12 +237,12 @@ LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const
 }
 
 bool samples_other_lights(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes) {
-    WorldTransforms placements(scene);
-    const auto shines = [&](Id<Node> id) {
+    WorldTransforms transforms(scene);
+    const auto emits = [&](Id<Node> id) {
         const Light& light = *scene.lights.find(scene.nodes.find(id)->light);
-        return light.enabled && !is_area_light(light) && luminance_of(light_emission(light)) > 0 && placements(id).visible;
+        return light.enabled && !is_area_light(light) && luminance_of(light_emission(light)) > 0 && transforms(id).visible;
     };
-    return std::ranges::any_of(meshes.powers, [](double power) { return power > 0; }) || std::ranges::any_of(nodes, shines) ||
+    return std::ranges::any_of(meshes.powers, [](double power) { return power > 0; }) || std::ranges::any_of(nodes, emits) ||
            luminance_of(sun_of(scene.environment).lux) > 0;
 }
 

@@ -13,9 +13,9 @@
 namespace blush {
 namespace {
 
-// Nodes above a leaf. The bits of a trail; those of one level are left over, so that no_trail is no trail.
+// Maximal number of nodes above a leaf. A trail has 32 bits; those of one level stay unused, so that no trail equals no_trail.
 constexpr int max_levels = 32 / tree_branch_bits - 1;
-// Subtrees of the root are built in parallel from here.
+// The children of the root are built in parallel for at least this many items.
 constexpr size_t parallel_items = size_t(1) << 13;
 
 float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -28,15 +28,15 @@ struct Item {
 };
 
 Vec3d center_of(const LightBounds& b) { return (to_double(b.low) + to_double(b.high)) * 0.5; }
-// Largest distance of its lights from `center`.
+// Upper bound of the distance of the lights in `b` from `center`.
 double radius_around(const Vec3d& center, const LightBounds& b) {
     double farthest = 0;
     for (const Vec3& corner : b.corners) farthest = std::max(farthest, length(to_double(corner) - center));
     return farthest + b.margin;
 }
 
-// Unlike LightBounds, sums need no trigonometry. The mean of the axes stands for their cone: that of a uniform cap of half angle o has
-// the length (1 + cos o) / 2.
+// Bounds of several lights as sums, which need no trigonometry to extend, unlike LightBounds. The length of the mean axis determines
+// the cone: for axes distributed uniformly over a cap of half angle o it is (1 + cos o) / 2.
 struct Sum {
     Vec3 low{0, 0, 0}, high{0, 0, 0};
     Vec3d axis{0, 0, 0}; // times power
@@ -75,7 +75,7 @@ struct Sum {
     }
 };
 
-// Bounds of all items. The axes of two-sided ones may be turned around.
+// Bounds of all items. The axis of a two-sided item counts in both directions.
 LightBounds bounds_of(std::span<const Item> items) {
     LightBounds all = items[0].bounds;
     if (items.size() == 1) return all;
@@ -96,18 +96,18 @@ LightBounds bounds_of(std::span<const Item> items) {
     all.theta_o = std::numbers::pi_v<float>;
     if (sum.theta_o >= all.theta_o || !(length(sum.axis) > 1e-3 * sum.power)) return all;
     const Vec3d axis = normalize(sum.axis);
-    double narrowest = 1, widest = 0; // cosine to the axes without a cone of their own; angle of the others
+    double min_cosine = 1, max_angle = 0; // to the axes of items with theta_o = 0; to the far side of the other items' cones
     for (const Item& item : items) {
         const double cosine = dot(to_double(item.bounds.axis), axis);
         const double turned = item.bounds.two_sided ? std::abs(cosine) : cosine;
         if (item.bounds.theta_o > 0)
-            widest = std::max(widest, std::acos(std::clamp(turned, -1.0, 1.0)) + double(item.bounds.theta_o));
+            max_angle = std::max(max_angle, std::acos(std::clamp(turned, -1.0, 1.0)) + double(item.bounds.theta_o));
         else
-            narrowest = std::min(narrowest, turned);
+            min_cosine = std::min(min_cosine, turned);
     }
     constexpr double margin = 1e-5; // for rounding of the axis
     all.axis = to_float(axis);
-    all.theta_o = float(std::min(std::max(widest, std::acos(std::max(narrowest, -1.0))) + margin, std::numbers::pi));
+    all.theta_o = float(std::min(std::max(max_angle, std::acos(std::max(min_cosine, -1.0))) + margin, std::numbers::pi));
     return all;
 }
 
@@ -172,7 +172,7 @@ struct TreeBuilder {
             Sum from_left{};
             const double stretch = double(component(size, longest) / component(size, axis));
             for (size_t k = 0; k + 1 < buckets; ++k) {
-                if (sums[k].power <= 0) continue; // the split after the last bucket again
+                if (sums[k].power <= 0) continue; // an empty bucket: the same split as the one before it
                 from_left.add(sums[k]);
                 if (from_right[k + 1].power <= 0) break;
                 const double total = stretch * (from_left.cost() + from_right[k + 1].cost());
@@ -244,7 +244,7 @@ struct TreeBuilder {
     }
 };
 
-// Of the items, one sample in 64 is distributed uniformly (light_table.h).
+// Selection powers by leaf. One sample in 64 is distributed uniformly over the triangles (uniform_share).
 std::vector<double> with_uniform_share(std::span<const LightBounds> triangles, const LightTreeShape& shape) {
     double total = 0;
     for (const int32_t i : shape.items) total += triangles[size_t(i)].power;
@@ -262,8 +262,9 @@ Vec3d cell_direction(int cell) {
     return normalize(Vec3d{std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), z});
 }
 
-// Mean cosine of a triangle for receivers around a direction at that cosine: max(0, cosine), averaged over 0.3 to either side. Receivers
-// in the same cell, at the least distance at which a mesh is afar, see cosines that differ by less than 0.85: of these none is 0.
+// Mean of max(0, cosine) over the receivers of a direction cell. `cosine`: between the triangle's normal and the cell's direction. The
+// mean is taken over cosines that differ by up to 0.3. At the least distance at which the table is used, the cosines of all receivers in
+// a cell differ from it by less than 0.85: if one of them is positive, the result is at least 0.02, never 0.
 float seen_share(float cosine) {
     constexpr float blur = 0.3f, max_difference = 0.85f, floor = 0.02f;
     if (cosine <= -max_difference) return 0;
@@ -328,7 +329,8 @@ MeshTree::MeshTree(std::span<const LightBounds> triangles, const Workers& worker
                to_float(center_of(bounds_))};
 }
 
-// For each direction what the patches give to receivers far away in the cell around it: the power of their triangles times the cosine.
+// Computes for each direction cell how much each patch contributes to distant receivers in that direction: the sum over its triangles of
+// power times mean cosine.
 void MeshTree::tabulate_directions(std::span<const LightBounds> triangles, std::span<const double> powers, const Workers& workers) {
     const size_t leaf_count = shape_.items.size();
     patch_begins_.assign(mesh_patches + 1, uint32_t(leaf_count));

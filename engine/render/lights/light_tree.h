@@ -15,7 +15,7 @@ namespace blush {
 // Position and emission bounds of a light, or of several.
 struct LightBounds {
     Vec3 low{0, 0, 0}, high{0, 0, 0};
-    // They are within `margin` of these: of a triangle its corners, else three times the centre.
+    // All lights are within `margin` of these points: the corners of a triangle, else three times the centre.
     std::array<Vec3, 3> corners{};
     double margin = 0;
     Vec3 axis{0, 0, -1}; // unit
@@ -67,7 +67,7 @@ private:
 
 // The tree of the scene.
 struct LightTreeTable {
-    std::vector<LightTreeNode> nodes; // their leaves are numbers of entries
+    std::vector<LightTreeNode> nodes; // a negative child is ~index of its entry
     std::vector<LightTreeEntry> entries;
     std::vector<std::shared_ptr<const MeshTree>> meshes; // of the entries
 
@@ -83,7 +83,7 @@ constexpr double uniform_share = 1.0 / 64;
 constexpr int64_t min_lights_for_a_tree = 32;
 // Meshes with fewer emissive triangles have no tree of their own: their triangles are leaves of the scene's tree.
 constexpr int64_t min_triangles_for_a_tree = 32;
-// Smaller ones have no table for receivers far away: it takes 64 KiB.
+// Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB.
 constexpr int64_t min_triangles_for_patches = 1024;
 
 } // namespace blush

@@ -52,22 +52,22 @@ LightBounds triangle_bounds(const LightRecord& light, float theta_e, double powe
 std::vector<bool> is_sampled(const GeometryPool& geometry, const std::vector<size_t>& parts) {
     std::vector<bool> aimed(parts.size(), true);
     std::map<int32_t, int64_t> triangles; // by object
-    std::vector<size_t> glowing;          // indices into `parts`
+    std::vector<size_t> emissive;         // indices into `parts`
     int64_t total = 0;
     for (size_t i = 0; i < parts.size(); ++i) {
         const int32_t object = geometry.parts()[parts[i]].object;
         if (is_expanded(Id<Node>{uint32_t(object)})) continue;
-        glowing.push_back(i);
+        emissive.push_back(i);
         triangles[object] += geometry.triangle_count(parts[i]);
         total += geometry.triangle_count(parts[i]);
     }
     if (total <= max_mesh_lights) return aimed;
-    std::ranges::stable_sort(glowing, {}, [&](size_t i) {
+    std::ranges::stable_sort(emissive, {}, [&](size_t i) {
         const int32_t object = geometry.parts()[parts[i]].object;
         return std::pair(triangles[object], object);
     });
     int64_t left = max_mesh_lights;
-    for (const size_t i : glowing) {
+    for (const size_t i : emissive) {
         left -= geometry.triangle_count(parts[i]);
         aimed[i] = left >= 0;
     }
@@ -192,7 +192,7 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
     for (const MeshLightEntry& entry : before.entries)
         if (entry.tree) parts_before.emplace(std::pair(entry.node, entry.part_of_node), &entry);
     MeshLightEntry common; // to the triangles of a part
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     SceneTables tables = scene_tables;
     const std::vector<bool> aimed = is_sampled(geometry, parts);
     for (size_t i = 0; i < parts.size(); ++i) {
@@ -202,7 +202,7 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
         const Light* area_light = light_of_expanded_mesh(scene, body);
         lights.luminaires += area_light ? 1 : triangles;
         lights.emissive_triangles += triangles;
-        const int32_t profile = area_light ? lights.profiles.add(*area_light, placements(body).world_from_node).profile : -1;
+        const int32_t profile = area_light ? lights.profiles.add(*area_light, transforms(body).world_from_node).profile : -1;
         // A ray that hits the light reads its profile.
         if (aim == NeeLights::zero_size_lights && profile < 0) continue;
         if (!aimed[i]) {

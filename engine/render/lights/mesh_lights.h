@@ -22,18 +22,19 @@ struct MeshLightEntry {
     LightBounds bounds;
     std::shared_ptr<const MeshTree> tree; // null: a triangle
     int32_t light = 0, count = 1;         // its records
-    Id<Node> node;                        // of a part: its node, its number among the parts of this node, and its spread
-    int32_t part_of_node = 0;
-    float theta_e = 0;
+    // Only for a part:
+    Id<Node> node;            // its node
+    int32_t part_of_node = 0; // its index among the parts of that node
+    float theta_e = 0;        // its spread
 };
 
-// The first records of a light table (light_table.h). They depend on meshes, materials and area lights only, and are made anew only
-// when one of these changes.
+// The first records of a light table (light_table.h). They depend on meshes, materials and area lights only, and are rebuilt
+// only if one of these changes.
 struct MeshLights {
     std::vector<LightRecord> records;
     std::vector<Id<Node>> nodes; // by record, like the next
     std::vector<double> powers;
-    std::vector<MeshLightEntry> entries;  // of the light tree; the slots of the records lead to them
+    std::vector<MeshLightEntry> entries;  // of the light tree; a record's slot is the index of its entry
     std::vector<FirstLight> first_lights; // of the parts that have records
     LightProfiles profiles;
     int64_t emissive_triangles = 0;
@@ -43,8 +44,8 @@ struct MeshLights {
 
 // True for materials of emissive triangles that light the scene.
 bool is_emissive(const MaterialRecord& material);
-// `parts`: those with emissive materials, ascending. `tables` of the geometry and the materials; their lights are not read. `before`:
-// mesh lights of an earlier scene, whose trees are used again where the triangles are the same.
+// `parts`: parts with emissive materials, in ascending order. `tables`: of the geometry and the materials; their lights are not read.
+// `before`: mesh lights of the previous scene; reuses its trees for parts whose triangles did not change.
 MeshLights build_mesh_lights(const Scene& expanded, const GeometryPool& geometry, const SceneTables& tables,
                              const std::vector<size_t>& parts, NeeLights aim, const MeshLights& before, const Workers& workers);
 

@@ -19,10 +19,10 @@ bool has_size(const Light& light) {
 }
 
 bool has_zero_size_light(const Scene& scene, const std::vector<Id<Node>>& nodes) {
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     return std::ranges::any_of(nodes, [&](Id<Node> id) {
         const Light* light = scene.lights.find(scene.nodes.find(id)->light);
-        return light->enabled && light->intensity > 0 && !has_size(*light) && placements(id).visible;
+        return light->enabled && light->intensity > 0 && !has_size(*light) && transforms(id).visible;
     });
 }
 

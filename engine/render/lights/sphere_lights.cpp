@@ -22,13 +22,13 @@ bool is_sphere_light(const Light& light) {
 
 std::vector<SphereLight> list_sphere_lights(const Scene& scene, const std::vector<Id<Node>>& nodes) {
     std::vector<SphereLight> spheres;
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (const Id<Node> id : nodes) {
         const Node& node = *scene.nodes.find(id);
         const Light* light = scene.lights.find(node.light);
-        if (!is_sphere_light(*light) || !placements(id).visible) continue;
+        if (!is_sphere_light(*light) || !transforms(id).visible) continue;
         if (!light->enabled && scene.mix.grouping == LightMix::Grouping::none) continue;
-        const Affined& world = placements(id).world_from_node;
+        const Affined& world = transforms(id).world_from_node;
         const double radius = double(light->radius) * std::cbrt(std::abs(determinant(world)));
         if (!is_finite(world) || !(radius > 0) || !std::isfinite(radius)) continue;
         spheres.push_back({id, node.light, world.t, radius, light->visible_to_camera});

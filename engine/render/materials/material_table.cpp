@@ -123,8 +123,8 @@ TextureUse texture_use(const TextureRef& ref, int32_t texture, float texels_per_
     return use;
 }
 
-void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& worn) {
-    table.uv_sets = uv_sets_of(worn);
+void choose_uv_sets(MaterialTable& table, const std::vector<const Material*>& used) {
+    table.uv_sets = uv_sets_of(used);
     table.warnings.clear();
     if (table.uv_sets.size() <= max_uv_sets) return;
     table.warnings.push_back({Diagnostic::Severity::warning,
@@ -179,13 +179,13 @@ MaterialTables MaterialTable::tables() const {
 }
 
 void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers) {
-    const std::vector<const Material*> worn = used_materials(scene);
-    std::vector<TextureSource> sources = texture_sources(scene, worn);
+    const std::vector<const Material*> used = used_materials(scene);
+    std::vector<TextureSource> sources = texture_sources(scene, used);
     if (sources != table.textures.sources) {
         table.textures = {}; // frees the old texels before allocating new ones
         table.textures = build_texture_table(std::move(sources), workers);
     }
-    choose_uv_sets(table, worn);
+    choose_uv_sets(table, used);
     const size_t count = scene.materials.size() + 1;
     table.ids.clear();
     table.records.resize(count);
@@ -202,8 +202,8 @@ bool update_material(MaterialTable& table, const Scene& scene, Id<Material> id) 
     const Material* material = scene.materials.find(id);
     const bool same_materials = std::ranges::equal(table.ids, scene.materials, {}, {}, &Table<Material>::Entry::id);
     if (!material || !same_materials) return false;
-    const std::vector<const Material*> worn = used_materials(scene);
-    if (uv_sets_of(worn) != table.uv_sets || texture_sources(scene, worn) != table.textures.sources) return false;
+    const std::vector<const Material*> used = used_materials(scene);
+    if (uv_sets_of(used) != table.uv_sets || texture_sources(scene, used) != table.textures.sources) return false;
     write_material(table, size_t(table.index_of(id)), *material);
     return true;
 }

@@ -38,14 +38,15 @@ public:
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
     BackgroundDenoiser& operator=(const BackgroundDenoiser&) = delete;
 
-    // If not wanted, nothing is denoised or loaded. Never blocks.
+    // Switches denoising on or off; if off, no weights are loaded. Never blocks.
     void want(bool wanted);
     // Submits the newest frame; `image` counts images. True if the result is expected within one frame of the window and is worth
     // waiting for. Never blocks.
     bool offer(uint64_t image, FramePtr frame);
-    // Expected seconds of denoising a first, coarse image, per megapixel; 0 if that is not wanted or not known yet.
+    // Expected seconds per megapixel to denoise a first, coarse image; 0 if such images are not denoised or the speed is not known yet.
     double coarse_speed() const;
-    // True while a run for which rendering should pause is due or in progress. It ends before an answer, or before want() returns.
+    // True while the denoiser should run alone: rendering pauses. False again before the result is handed over, or before want()
+    // returns.
     bool pauses_rendering() const { return pauses_rendering_; }
     // Why denoising stopped, for example missing or damaged weights. Empty: it works.
     std::string failure() const;

@@ -64,7 +64,7 @@ struct RenderSession::State {
     bool paused = false;
     std::optional<uint64_t> film_asked; // revision of the requested film
     std::optional<RequestedFilm> kept_film;
-    PublishedFrames showcase;
+    PublishedFrames published_frames;
     SessionStatus status;
 
     // Read by tiles before they begin: one load, no lock.
@@ -179,7 +179,7 @@ void RenderSession::State::mix_denoised(const Frame& frame) {
     if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
     DenoisedPtr after = remixed(*before, frame.gains);
     const std::lock_guard lock(mutex);
-    showcase.replace(before, std::move(after));
+    published_frames.replace(before, std::move(after));
 }
 
 // Publishes the film as it is.
@@ -192,9 +192,9 @@ void RenderSession::State::publish() {
     const Pictures previous = current_pictures(); // freed after unlocking
     const std::lock_guard lock(mutex);
     if (denoiser->offer(current->image, frame))
-        showcase.withhold(current->image, frame);
+        published_frames.withhold(current->image, frame);
     else
-        showcase.show(current->image, frame);
+        published_frames.show(current->image, frame);
 }
 
 // Called on the denoiser's thread.
@@ -206,9 +206,9 @@ void RenderSession::State::receive_denoised(uint64_t image, const FramePtr& sour
     {
         const std::lock_guard lock(mutex);
         if (denoised) status.denoised_with[size_t(denoised->quality)] = true;
-        showcase.answer(image, source, std::move(denoised));
+        published_frames.answer(image, source, std::move(denoised));
         status.denoiser_failure = denoiser->failure();
-        if (!status.denoiser_failure.empty()) showcase.release();
+        if (!status.denoiser_failure.empty()) published_frames.release();
     }
     wake.notify_one(); // rendering may have paused for it
     on_frame();
@@ -225,7 +225,7 @@ void RenderSession::State::on_networks_freed() {
 
 Pictures RenderSession::State::current_pictures() const {
     const std::lock_guard lock(mutex);
-    return showcase.pictures();
+    return published_frames.pictures();
 }
 
 void RenderSession::State::begin_image(const RenderSettings& film_settings, const FilmState* film) {
@@ -460,7 +460,7 @@ void RenderSession::want_denoised(bool wanted) {
     if (wanted) return;
     {
         const std::lock_guard lock(state_->mutex);
-        state_->showcase.release();
+        state_->published_frames.release();
     }
     state_->wake.notify_one(); // rendering may have paused for a denoised picture
 }

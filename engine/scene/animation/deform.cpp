@@ -39,13 +39,13 @@ private:
 };
 
 // Linear blend skinning: the joint matrices, weighted by their influences on the vertex.
-Affined blended(const Geometry& g, const Deformation& bend, size_t vertex) {
+Affined blended(const Geometry& g, const Deformation& deformation, size_t vertex) {
     const size_t per_vertex = g.influences.size() / g.positions.size();
     Affined sum{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     for (size_t k = 0; k < per_vertex; ++k) {
         const Influence& by = g.influences[vertex * per_vertex + k];
         if (is_zero(by.weight)) continue;
-        const Affined& m = by.joint < bend.joints.size() ? bend.joints[by.joint] : bend.rigid;
+        const Affined& m = by.joint < deformation.joints.size() ? deformation.joints[by.joint] : deformation.rigid;
         const double w = by.weight;
         sum = {sum.x + m.x * w, sum.y + m.y * w, sum.z + m.z * w, sum.t + m.t * w};
     }
@@ -63,17 +63,18 @@ Vec3 unit(const Vec3d& v, const Vec3& otherwise) {
 // Deforms ranges of vertices, each independent of the others.
 class Deformer {
 public:
-    Deformer(const Geometry& rest, const Deformation& bend, Geometry& result)
-        : rest_(rest), bend_(bend), result_(result), positions_(rest, bend.weights, &MorphTarget::positions, rest.positions.size()),
-          normals_(rest, bend.weights, &MorphTarget::normals, rest.normals.size()),
-          tangents_(rest, bend.weights, &MorphTarget::tangents, rest.tangents.size()) {}
+    Deformer(const Geometry& rest, const Deformation& deformation, Geometry& result)
+        : rest_(rest), deformation_(deformation), result_(result),
+          positions_(rest, deformation.weights, &MorphTarget::positions, rest.positions.size()),
+          normals_(rest, deformation.weights, &MorphTarget::normals, rest.normals.size()),
+          tangents_(rest, deformation.weights, &MorphTarget::tangents, rest.tangents.size()) {}
 
     void vertices(size_t begin, size_t end) const {
         for (size_t i = begin; i < end; ++i) {
             Affined map;
-            if (!bend_.joints.empty()) map = rest_.influences.empty() ? bend_.rigid : blended(rest_, bend_, i);
+            if (!deformation_.joints.empty()) map = rest_.influences.empty() ? deformation_.rigid : blended(rest_, deformation_, i);
             Vec3 place = to_float(transform_point(map, positions_(rest_.positions[i], i)));
-            if (!finite(place)) place = to_float(transform_point(bend_.rigid, to_double(rest_.positions[i])));
+            if (!finite(place)) place = to_float(transform_point(deformation_.rigid, to_double(rest_.positions[i])));
             result_.positions[i] = finite(place) ? place : Vec3{0, 0, 0};
             if (!rest_.normals.empty()) {
                 const double sign = determinant(map) < 0 ? -1 : 1;
@@ -100,7 +101,7 @@ public:
 
 private:
     const Geometry& rest_;
-    const Deformation& bend_;
+    const Deformation& deformation_;
     Geometry& result_;
     Morph positions_, normals_, tangents_;
 };
@@ -114,11 +115,11 @@ void in_ranges(size_t count, const Workers* workers, const std::function<void(si
 }
 
 // From mesh space to the space around the first joint.
-std::vector<Affined> joint_maps(const Skin& skin, WorldTransforms& placements, const Vec3d& origin) {
+std::vector<Affined> joint_maps(const Skin& skin, WorldTransforms& transforms, const Vec3d& origin) {
     std::vector<Affined> maps;
     maps.reserve(skin.joints.size());
     for (size_t j = 0; j < skin.joints.size(); ++j) {
-        Affined m = placements(skin.joints[j]).world_from_node * to_double(skin.joint_from_mesh[j]);
+        Affined m = transforms(skin.joints[j]).world_from_node * to_double(skin.joint_from_mesh[j]);
         m.t = m.t - origin;
         maps.push_back(m);
     }
@@ -131,7 +132,7 @@ bool has(const Mesh& mesh, auto Geometry::*what) {
 
 } // namespace
 
-std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node) {
+std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& transforms, Id<Node> id, const Node& node) {
     const Skin* skin = node.skin ? scene.skins.find(node.skin) : nullptr;
     std::vector<float> weights = posed_morph_weights(scene, id, node);
     if (std::ranges::all_of(weights, is_zero)) weights.clear();
@@ -139,38 +140,38 @@ std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& p
     if (!mesh) return {};
     const bool skinned = skin && !skin->joints.empty() && has(*mesh, &Geometry::influences);
     if (!skinned && (weights.empty() || !has(*mesh, &Geometry::targets))) return {};
-    Deformation bend;
-    bend.weights = std::move(weights);
+    Deformation deformation;
+    deformation.weights = std::move(weights);
     if (skinned) {
-        bend.origin = placements(skin->joints.front()).world_from_node.t;
-        bend.joints = joint_maps(*skin, placements, bend.origin);
-        bend.rigid = placements(id).world_from_node;
-        bend.rigid.t = bend.rigid.t - bend.origin;
+        deformation.origin = transforms(skin->joints.front()).world_from_node.t;
+        deformation.joints = joint_maps(*skin, transforms, deformation.origin);
+        deformation.rigid = transforms(id).world_from_node;
+        deformation.rigid.t = deformation.rigid.t - deformation.origin;
     }
-    return bend;
+    return deformation;
 }
 
-GeometryPtr deformed(const Geometry& rest, const Deformation& bend, const Workers* workers) {
+GeometryPtr deformed(const Geometry& rest, const Deformation& deformation, const Workers* workers) {
     auto result = std::make_shared<Geometry>();
     Geometry& g = *result;
     copy_arrays(rest, g);
     g.generated_tangents = rest.generated_tangents;
     g.flat = rest.flat;
-    const Deformer deformer(rest, bend, g);
+    const Deformer deformer(rest, deformation, g);
     in_ranges(g.positions.size(), workers, [&](size_t begin, size_t end) { deformer.vertices(begin, end); });
     if (g.flat) in_ranges(g.triangle_count(), workers, [&](size_t begin, size_t end) { deformer.face_normals(begin, end); });
     return result;
 }
 
-DeformedMesh deformed_mesh(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node) {
+DeformedMesh deformed_mesh(const Scene& scene, WorldTransforms& transforms, Id<Node> id, const Node& node) {
     const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
     if (!mesh) return {};
-    DeformedMesh placed{mesh->parts, placements(id).world_from_node};
-    const std::optional<Deformation> bend = deformation_of(scene, placements, id, node);
-    if (!bend) return placed;
-    placed.world_from_mesh = world_from_deformed(*bend, placed.world_from_mesh);
+    DeformedMesh placed{mesh->parts, transforms(id).world_from_node};
+    const std::optional<Deformation> deformation = deformation_of(scene, transforms, id, node);
+    if (!deformation) return placed;
+    placed.world_from_mesh = world_from_deformed(*deformation, placed.world_from_mesh);
     for (MeshPart& part : placed.parts)
-        if (part.geometry) part.geometry = deformed(*part.geometry, *bend);
+        if (part.geometry) part.geometry = deformed(*part.geometry, *deformation);
     return placed;
 }
 

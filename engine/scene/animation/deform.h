@@ -23,14 +23,14 @@ struct Deformation {
 };
 
 // Deformation of the node's mesh; none if the mesh is not deformed.
-std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node);
+std::optional<Deformation> deformation_of(const Scene& scene, WorldTransforms& transforms, Id<Node> id, const Node& node);
 // The deformed geometry. A vertex whose deformed position is not finite keeps its rest position. `workers` share the vertices, which do
 // not depend on each other: the result is the same for any number of threads. Null: single-threaded.
-GeometryPtr deformed(const Geometry& geometry, const Deformation& bend, const Workers* workers = nullptr);
+GeometryPtr deformed(const Geometry& geometry, const Deformation& deformation, const Workers* workers = nullptr);
 
 // World transform of a mesh after this deformation.
-inline Affined world_from_deformed(const Deformation& bend, const Affined& world_from_node) {
-    return bend.joints.empty() ? world_from_node : Affined{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, bend.origin};
+inline Affined world_from_deformed(const Deformation& deformation, const Affined& world_from_node) {
+    return deformation.joints.empty() ? world_from_node : Affined{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, deformation.origin};
 }
 
 // A node's deformed mesh and its world transform. No parts if the node has no mesh.
@@ -38,6 +38,6 @@ struct DeformedMesh {
     std::vector<MeshPart> parts;
     Affined world_from_mesh;
 };
-DeformedMesh deformed_mesh(const Scene& scene, WorldTransforms& placements, Id<Node> id, const Node& node);
+DeformedMesh deformed_mesh(const Scene& scene, WorldTransforms& transforms, Id<Node> id, const Node& node);
 
 } // namespace blush

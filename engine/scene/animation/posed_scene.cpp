@@ -11,9 +11,9 @@ namespace {
 std::vector<Id<Node>> carried_off(const Scene& scene) {
     std::vector<Id<Node>> nodes;
     const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (size_t i = 0; clip && i < clip->channels.size(); ++i)
-        if (const Id<Node> id = clip->channels[i].node; scene.nodes.contains(id) && !is_finite(placements(id).world_from_node))
+        if (const Id<Node> id = clip->channels[i].node; scene.nodes.contains(id) && !is_finite(transforms(id).world_from_node))
             nodes.push_back(id);
     return nodes;
 }

@@ -112,11 +112,11 @@ void look_in(const std::vector<const Geometry*>& parts, const Affined& world_fro
 
 // Intersects the meshes of all visible nodes that count, and all their instances.
 TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, const std::function<bool(Id<Node>)>& counts) {
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     TriangleHit nearest{line.end};
     for (const auto& [id, node] : scene.nodes) {
-        if (!node.mesh || !placements(id).visible || !counts(id)) continue;
-        const DeformedMesh mesh = deformed_mesh(scene, placements, id, node);
+        if (!node.mesh || !transforms(id).visible || !counts(id)) continue;
+        const DeformedMesh mesh = deformed_mesh(scene, transforms, id, node);
         const std::vector<const Geometry*> parts = parts_of(scene, mesh, opaque_only);
         const double before = nearest.t;
         if (!node.instances)

@@ -29,8 +29,8 @@ int uv_set_of(const Material* m) {
 
 int tangent_uv_set(const Scene& scene, const MeshPart& part) {
     if (part.by_variant.empty()) return uv_set_of(scene.materials.find(part.material));
-    for (const Id<Material> worn : part.by_variant)
-        if (const int set = uv_set_of(scene.materials.find(worn)); set >= 0) return set;
+    for (const Id<Material> material : part.by_variant)
+        if (const int set = uv_set_of(scene.materials.find(material)); set >= 0) return set;
     return -1;
 }
 

@@ -45,11 +45,11 @@ Census census_of(const Scene& scene) {
     Census census;
     const bool some_solo = any_solo(scene);
     census.light = emits_light(scene.environment, some_solo) && gives_light(scene.environment);
-    WorldTransforms placements(scene);
+    WorldTransforms transforms(scene);
     for (const auto& [id, node] : scene.nodes) {
         const Light* light = node.light ? scene.lights.find(node.light) : nullptr;
         const Mesh* mesh = node.mesh ? scene.meshes.find(node.mesh) : nullptr;
-        if ((!light && !mesh) || !placements(id).visible) continue;
+        if ((!light && !mesh) || !transforms(id).visible) continue;
         census.light |= light && emits_light(*light, some_solo) && light->intensity > 0 && is_bright(light->color);
         if (mesh) count_surfaces(scene, *mesh, some_solo, census);
     }

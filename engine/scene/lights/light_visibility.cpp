@@ -5,7 +5,7 @@
 namespace blush {
 namespace {
 
-bool wears_solo(const Scene& scene, const Node& node) {
+bool has_solo_material(const Scene& scene, const Node& node) {
     const Mesh* mesh = scene.meshes.find(node.mesh);
     return mesh && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
                const Material* m = scene.materials.find(part.material);
@@ -13,7 +13,7 @@ bool wears_solo(const Scene& scene, const Node& node) {
            });
 }
 
-bool some_glow_is_muted(const Scene& scene) {
+bool some_emission_is_muted(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const auto& entry) { return !entry.value.emits; });
 }
 
@@ -38,13 +38,13 @@ bool any_solo(const Scene& scene) {
     const bool lights = std::ranges::any_of(scene.lights, solo), materials = std::ranges::any_of(scene.materials, solo);
     return (lights || materials) && std::ranges::any_of(scene.nodes, [&](const auto& entry) {
                const Light* light = lights ? scene.lights.find(entry.value.light) : nullptr;
-               return (light && light->solo) || (materials && wears_solo(scene, entry.value));
+               return (light && light->solo) || (materials && has_solo_material(scene, entry.value));
            });
 }
 
 Scene with_solo_applied(const Scene& scene) {
     const bool some_solo = any_solo(scene);
-    if (!some_solo && !some_glow_is_muted(scene)) return scene;
+    if (!some_solo && !some_emission_is_muted(scene)) return scene;
     Scene applied = scene;
     apply_to_materials(applied, some_solo);
     if (!some_solo) return applied;

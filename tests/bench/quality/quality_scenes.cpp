@@ -33,7 +33,7 @@ void add_sun(Scene& scene, float lux, const Vec3& direction) {
     sun.kind = Light::Kind::sun;
     sun.intensity = lux;
     sun.angle_radians = 0.00925f;
-    stability::shine(scene, sun, stability::aimed({0, 0, 0}, stability::unit(direction)));
+    stability::place_light(scene, sun, stability::aimed({0, 0, 0}, stability::unit(direction)));
 }
 
 // 1,002,528 triangles.

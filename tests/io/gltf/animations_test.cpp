@@ -241,8 +241,8 @@ TEST(GltfSkins, DeformedVerticesAreLimited) {
     for (int i = 0; i < nodes; ++i) b.add("nodes", {{"mesh", mesh}});
     const ImportedScene s = imported(b);
     EXPECT_TRUE(reports(s.report, "deformed vertices"));
-    const auto bend = std::ranges::count_if(s.scene.nodes, [](const auto& n) { return !n.value.morph_weights.empty(); });
-    EXPECT_EQ(bend, (1 << 24) / vertices);
+    const auto deformed = std::ranges::count_if(s.scene.nodes, [](const auto& n) { return !n.value.morph_weights.empty(); });
+    EXPECT_EQ(deformed, (1 << 24) / vertices);
 }
 
 TEST(GltfMorphTargets, AreReadWithNamesAndWeights) {

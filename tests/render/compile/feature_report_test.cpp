@@ -183,7 +183,7 @@ TEST(FeatureReport, BsdfSamplingAloneHasNoSamplingTables) {
 
     Light point;
     point.intensity = 1;
-    shine(scene, point, at({0, 1, 0}));
+    place_light(scene, point, at({0, 1, 0}));
     const Compiled lit(scene, Strategy::bsdf);
     EXPECT_EQ(lit.scene.tables().lights.count, 1) << "rays cannot hit a point light";
     EXPECT_FALSE(line(lit.feature_report(), "lights", "lights with a size").used);

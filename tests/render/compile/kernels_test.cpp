@@ -129,22 +129,22 @@ Scene everything() {
 
     Light light;
     light.intensity = 3;
-    shine(scene, light, at({0, 2, 1}));
+    place_light(scene, light, at({0, 2, 1}));
     light.kind = Light::Kind::spot;
-    shine(scene, light, aimed({-2, 2, 1}, {1, -1, 0}));
+    place_light(scene, light, aimed({-2, 2, 1}, {1, -1, 0}));
     light.radius = 0.1f;
-    shine(scene, light, aimed({-1.5f, 1, 0.5f}, {1, -0.5f, 0}));
+    place_light(scene, light, aimed({-1.5f, 1, 0.5f}, {1, -0.5f, 0}));
     light.kind = Light::Kind::sphere;
     light.visible_to_camera = false;
-    shine(scene, light, at({0.5f, 0.9f, 0.4f}, 0.7f));
+    place_light(scene, light, at({0.5f, 0.9f, 0.4f}, 0.7f));
     light.kind = Light::Kind::disk;
     light.spread_radians = 1;
-    shine(scene, light, aimed({1, 1.5f, 1}, {-1, -1, -1}));
+    place_light(scene, light, aimed({1, 1.5f, 1}, {-1, -1, -1}));
     light.kind = Light::Kind::sun;
     light.angle_radians = 0.02f;
-    shine(scene, light, aimed({0, 0, 0}, {-1, -2, -1}));
+    place_light(scene, light, aimed({0, 0, 0}, {-1, -2, -1}));
     light.kind = Light::Kind::rectangle;
-    shine(scene, light, aimed({2, 2, 2}, {-1, -1, -1}));
+    place_light(scene, light, aimed({2, 2, 2}, {-1, -1, -1}));
     scene.environment.kind = Environment::Kind::image;
     scene.environment.image = float_picture(8, 8, texels);
     scene.view = looking({1, 2.5f, 4}, {0.2f, 0.3f, 0}, 0.8f);
@@ -203,7 +203,7 @@ TEST(Kernels, GiveTheSameBitsWithManyLights) {
         light.width = light.height = 0.1f;
         light.radius = i % 4 == 0 ? 0.05f : 0.f;
         light.intensity = 0.1f + 0.03f * float(i);
-        shine(scene, light, aimed({float(i % 8) - 4, 1.5f + 0.1f * float(i % 5), float(i / 8) - 3}, {0.1f * float(i % 3), -1, 0.2f}));
+        place_light(scene, light, aimed({float(i % 8) - 4, 1.5f + 0.1f * float(i % 5), float(i / 8) - 3}, {0.1f * float(i % 3), -1, 0.2f}));
     }
     const Compiled compiled(scene);
     EXPECT_TRUE(compiled.scene.features().has(Feature::light_tree));

@@ -43,7 +43,7 @@ GeometryPtr transformed(const Geometry& g, const Transform& transform) {
     return shared(std::move(t));
 }
 
-std::vector<Transform> placements() {
+std::vector<Transform> transforms() {
     Transform mirrored, stretched, both;
     mirrored.scale = {-1, 1, 1};
     mirrored.translation = {0.4f, 0, -0.2f};
@@ -60,7 +60,7 @@ void light_and_look(Scene& scene) {
     constant_world(scene, 0.3f);
     Light bulb;
     bulb.intensity = 5;
-    shine(scene, bulb, at({1, 2.5f, 1.5f}));
+    place_light(scene, bulb, at({1, 2.5f, 1.5f}));
     scene.view = looking({1, 3, 4}, {0, 0.2f, 0}, 0.7f);
 }
 
@@ -87,7 +87,7 @@ void expect_same_picture(const Scene& a, const Scene& b, const std::string& what
 
 TEST(Objects, TransformedNodesEqualTransformedTriangles) {
     for (const Material& material : {lambert({0.8f, 0.3f, 0.2f}), plastic(0.3f), emitter(1, 0.5f)})
-        for (const Transform& t : placements()) {
+        for (const Transform& t : transforms()) {
             Scene by_node, by_triangles;
             place(by_node, shared(dome()), material, t);
             place(by_triangles, transformed(dome(), t), material);
@@ -101,7 +101,7 @@ TEST(Objects, InstancesEqualCopies) {
     for (const Material& material : {plastic(0.3f), emitter(1, 0.5f)}) {
         Scene instances, copies;
         const Id<Mesh> mesh = instances.meshes.add({"", {{shared(dome()), instances.materials.add(material)}}});
-        for (const Transform& t : placements()) {
+        for (const Transform& t : transforms()) {
             Node node;
             node.mesh = mesh;
             node.local = t;
@@ -119,7 +119,7 @@ TEST(Objects, FlatNormalMapChangesNothing) {
     Geometry g = dome();
     g.tangents.assign(g.positions.size(), Vec4{0.8f, 0.3f, 0.5f, -1});
     const GeometryPtr geometry = shared(g);
-    for (const Transform& t : placements()) {
+    for (const Transform& t : transforms()) {
         Scene mapped, plain;
         Material material = plastic(0.3f);
         place(plain, geometry, material, t);
@@ -144,7 +144,7 @@ TEST(Objects, NormalMapTurnsTheNormal) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 3;
-    shine(scene, sun, aimed({0, 0, 0}, {-1, -1, 0}));
+    place_light(scene, sun, aimed({0, 0, 0}, {-1, -1, 0}));
     scene.view = looking_down(1, 1);
     const Picture picture = render(scene, settings_for(8, 8, 4), guides);
     EXPECT_TRUE(is_mean(picture.whole(), 0.5 / std::numbers::pi * 3));

@@ -18,7 +18,7 @@ Scene sunlit(const GeometryPtr& geometry, const Transform& transform, const Vec3
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = lux;
-    shine(scene, sun, aimed({0, 0, 0}, sun_direction));
+    place_light(scene, sun, aimed({0, 0, 0}, sun_direction));
     return scene;
 }
 
@@ -114,7 +114,7 @@ TEST(Offsets, InstancesToo) {
             Light light;
             light.kind = Light::Kind::sun;
             light.intensity = lux;
-            shine(scene, light, aimed({0, 0, 0}, sun));
+            place_light(scene, light, aimed({0, 0, 0}, sun));
             for (const float x : {0.f, 2000 * scale}) {
                 scene.view = view_of({x, 0, x}, scale, {0.3f, 1, 0.2f});
                 expect_exactly_lit(scene, sun, "instance of scale " + std::to_string(scale) + " at " + std::to_string(x));

@@ -77,8 +77,8 @@ TEST(Extent, AFarSceneRendersLikeTheNearOneBitForBit) {
         place(scene, cube(false), metal(0.4f), at(away + Vec3{0.75f, 0.25f, 0.5f}, 0.25f));
         Light lamp;
         lamp.kind = Light::Kind::rectangle;
-        shine(scene, lamp, aimed(away + Vec3{0, 2, 0}, {0, -1, 0}));
-        shine(scene, Light{}, at(away + Vec3{1, 1, 1}));
+        place_light(scene, lamp, aimed(away + Vec3{0, 2, 0}, {0, -1, 0}));
+        place_light(scene, Light{}, at(away + Vec3{1, 1, 1}));
         constant_world(scene, 0.1f);
         scene.view = looking({0, 2, 4}, {0, 0.25f, 0}, 0.8f);
         scene.view.position = scene.view.position + away;

@@ -93,7 +93,7 @@ TEST(Health, NonFiniteMaterialsAndGeometryDoNotSpread) {
 TEST(Health, AnEmptySceneIsBlack) {
     for (const float value : render_anything({}).rgba) EXPECT_TRUE(value == 0 || value == 1);
     Scene lit;
-    shine(lit, Light{}, at({0, 1, 0}));
+    place_light(lit, Light{}, at({0, 1, 0}));
     EXPECT_EQ(render_anything(lit).rgba[0], 0);
 }
 

@@ -80,7 +80,7 @@ TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
     place(scene, floor_quad(2), lambert(0.7f));
     Light sun;
     sun.kind = Light::Kind::sun;
-    shine(scene, sun, aimed({0, 0, 0}, {0.2f, -1, 0.1f}));
+    place_light(scene, sun, aimed({0, 0, 0}, {0.2f, -1, 0.1f}));
     constant_world(scene, 0.2f);
     scene.view = looking_down(1, 1);
     for (const int reuse : {1, 16}) {

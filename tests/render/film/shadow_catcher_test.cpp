@@ -29,7 +29,7 @@ struct Stage {
     explicit Stage(const Light& light) {
         floor = place(scene, floor_quad(5), lambert({0.8f, 0.8f, 0.8f}));
         place(scene, floor_quad(plate_half), lambert({0.5f, 0.5f, 0.5f}), at({0, plate_height, 0}));
-        shine(scene, light, aimed({0, lamp_height, 0}, {0, -1, 0}));
+        place_light(scene, light, aimed({0, lamp_height, 0}, {0, -1, 0}));
         scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
         catch_shadows_with(scene, floor);
     }
@@ -199,7 +199,7 @@ TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
     Scene scene;
     const Id<Node> floor = place(scene, floor_quad(4), lambert({0.9f, 0.3f, 0.2f}));
     place(scene, sphere(false), lambert({0.7f, 0.7f, 0.7f}), at({0, 0.6f, 0}, 0.5f));
-    shine(scene, bulb(), at({1, 2, 1}));
+    place_light(scene, bulb(), at({1, 2, 1}));
     scene.view = looking({0, 1.2f, 3}, {0, 0.5f, 0}, 0.7f);
     RenderSettings settings = settings_for(32, 32, 1);
     const PlaneSet planes{.depth = true, .ids = true};
@@ -237,7 +237,7 @@ TEST(ShadowCatcher, DoesNotCatchTheShadowsOfCatchers) {
         node.parent = group;
         scene.nodes.set(id, node);
     }
-    shine(scene, bulb(), aimed({0, lamp_height, 0}, {0, -1, 0}));
+    place_light(scene, bulb(), aimed({0, lamp_height, 0}, {0, -1, 0}));
     scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
     catch_shadows_with(scene, group); // and with it all below
     for (const float v : render(scene, settings_for(32, 32, 2)).rgba) ASSERT_EQ(v, 0);

@@ -140,7 +140,7 @@ TEST(Layers, AnisotropyFollowsTheTangents) {
         place(scene, brushed_quad(4, tangent), m);
         Light lamp;
         lamp.intensity = 10;
-        shine(scene, lamp, at({0, 3, 0}));
+        place_light(scene, lamp, at({0, 3, 0}));
         scene.view = looking_down(3, 6);
         return render(scene, settings_for(32, 32, 16)).blocks(8, 8); // four by four
     };
@@ -165,7 +165,7 @@ TEST(Layers, ClearCoatsHaveTheirOwnNormals) {
         place(scene, brushed_quad(4), m);
         Light sun;
         sun.kind = Light::Kind::sun;
-        shine(scene, sun, aimed({0, 0, 0}, {-std::sin(1.0471976f), -std::cos(1.0471976f), 0})); // 60 degrees from the zenith
+        place_light(scene, sun, aimed({0, 0, 0}, {-std::sin(1.0471976f), -std::cos(1.0471976f), 0})); // 60 degrees from the zenith
         scene.view = looking_down(1, 5);
         return render(scene, settings_for(8, 8, 16)).whole().mean.y;
     };

@@ -34,11 +34,11 @@ TEST(LightMeter, ReadsAPointAndASun) {
     Light point;
     point.kind = Light::Kind::point;
     point.intensity = 5;
-    shine(scene, point, at({1, 2, 0.5f}));
+    place_light(scene, point, at({1, 2, 0.5f}));
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 3;
-    shine(scene, sun, aimed({0, 5, 0}, {1, -1, 0.5f}));
+    place_light(scene, sun, aimed({0, 5, 0}, {1, -1, 0.5f}));
     const Vec3d to = Vec3d{1, 2, 0.5} - floor_place.position;
     const double expected = 5 * to.y / std::pow(length(to), 3) + 3 / std::sqrt(2.25);
     EXPECT_TRUE(reads(reading(scene, floor_place), expected));
@@ -56,7 +56,7 @@ LitPlace under_a_rectangle_light() {
     light.height = 0.5f;
     const Transform transform = aimed({0.5f, 1.2f, 0.3f}, {-0.2f, -1, 0.1f});
     LitPlace lit;
-    shine(lit.scene, light, transform);
+    place_light(lit.scene, light, transform);
     lit.lux = 4 * polygon_irradiance(floor_place.position, {0, 1, 0}, rectangle_corners(light, transform));
     return lit;
 }
@@ -131,7 +131,7 @@ TEST(LightMeter, FollowsEdits) {
     Light point;
     point.kind = Light::Kind::point;
     point.intensity = 5;
-    const Id<Node> node = shine(scene, point, at({0, 2, 0}));
+    const Id<Node> node = place_light(scene, point, at({0, 2, 0}));
     LightMeters meters({.threads = 1});
     const MeterPlace place{{0, 0, 0}, {0, 1, 0}, 0};
     meters.begin(scene, settings_for(1, 1, 1), std::span(&place, 1));

@@ -45,7 +45,7 @@ void sunlit(Scene& scene, const Vec3& direction) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 10;
-    shine(scene, sun, aimed({0, 5, 0}, direction));
+    place_light(scene, sun, aimed({0, 5, 0}, direction));
 }
 
 // Without noise: a single light, sampled once, and no other contribution.
@@ -73,7 +73,7 @@ TEST(Panes, PassPointsAndSpotsExactly) {
         light.kind = kind;
         light.intensity = 7;
         Scene open = floor_under_panes(0, {}), closed = floor_under_panes(1, gel({0.5f, 0.25f, 0.125f}));
-        for (Scene* scene : {&open, &closed}) shine(*scene, light, aimed({0.1f, 2, 0.2f}, {0, -1, 0}));
+        for (Scene* scene : {&open, &closed}) place_light(*scene, light, aimed({0.1f, 2, 0.2f}, {0, -1, 0}));
         const Vec3d direct = direct_light(open), through = direct_light(closed);
         ASSERT_GT(direct.y, 0);
         EXPECT_NEAR(through.x, 0.5 * direct.x, 1e-5 * direct.x);
@@ -126,9 +126,9 @@ Scene glazed_room(Light::Kind kind) {
     light.width = light.height = 0.8f;
     light.visible_to_camera = false; // its edge, sampled rarely, would dominate the variance
     if (kind == Light::Kind::sun)
-        shine(scene, light, aimed({0, 2.5f, 0}, {0.8f, -0.5f, 0.1f}));
+        place_light(scene, light, aimed({0, 2.5f, 0}, {0.8f, -0.5f, 0.1f}));
     else
-        shine(scene, light, aimed({0, 2.5f, 0}, {0.2f, -1, 0.1f}));
+        place_light(scene, light, aimed({0, 2.5f, 0}, {0.2f, -1, 0.1f}));
     scene.view = looking({0, 2.2f, 4}, {0, 0.8f, 0}, 0.8f);
     return scene;
 }

@@ -91,13 +91,13 @@ TEST(Strategies, AgreeUnderLightsWithAndWithoutSize) {
     place(scene, ceiling_quad(1, 2), emitter(3));
     Light point;
     point.intensity = 4;
-    shine(scene, point, at({0.7f, 1, 0.2f}));
+    place_light(scene, point, at({0.7f, 1, 0.2f}));
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 2;
-    shine(scene, sun, aimed({0, 0, 0}, {0.6f, -1, 0.4f})); // parallel: a disk of no size
+    place_light(scene, sun, aimed({0, 0, 0}, {0.6f, -1, 0.4f})); // parallel: a disk of no size
     sun.angle_radians = 0.8f;
-    shine(scene, sun, aimed({0, 0, 0}, {-0.6f, -1, 0.1f}));
+    place_light(scene, sun, aimed({0, 0, 0}, {-0.6f, -1, 0.1f}));
     constant_world(scene, 0.3f);
     scene.view = looking_down(1.5f, 1);
     const auto mis = with_strategy(scene, Strategy::mis, 16, 16, 256);

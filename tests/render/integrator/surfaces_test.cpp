@@ -62,7 +62,7 @@ TEST(Emission, IsOneSidedOrTwoSided) {
 TEST(Emission, OfUnlitSurfacesIsVisibleButEmitsNoLight) {
     Scene scene;
     place(scene, floor_quad(2), unlit({0.3f, 0.6f, 0.9f}));
-    shine(scene, Light{}, at({0, 1, 0}));
+    place_light(scene, Light{}, at({0, 1, 0}));
     scene.view = looking_down(1, 0.5f);
     for (const Vec3d& pixel : render(scene, settings_for(8, 8, 4)).pixels) {
         EXPECT_FLOAT_EQ(float(pixel.x), 0.3f);
@@ -96,17 +96,17 @@ TEST(Opacity, BlendedSheetsTransmitTheirShare) {
     for (const int sheets : {1, 2, 3}) {
         const double through = std::pow(1 - double(sheet.opacity), sheets), alpha = sidak(significance, 12);
         Scene sun = shaded_by(sheet, sheets), sky = sun, point = sun, wide = sun;
-        shine(sun, parallel_sun(), aimed({0, 0, 0}, {0, -1, 0}));
+        place_light(sun, parallel_sun(), aimed({0, 0, 0}, {0, -1, 0}));
         EXPECT_TRUE(shows_on_floor(
             sun, [&](const Vec3d&) { return 3 * through; }, alpha))
             << sheets << " sheets, parallel sun";
-        shine(wide, disk, aimed({0, 0, 0}, {0, -1, 0}));
+        place_light(wide, disk, aimed({0, 0, 0}, {0, -1, 0}));
         EXPECT_TRUE(shows_on_floor(
             wide, [&](const Vec3d&) { return 3 * through; }, alpha))
             << sheets << " sheets, wide sun";
         Light bulb;
         bulb.intensity = 3;
-        shine(point, bulb, at({0, 3, 0}));
+        place_light(point, bulb, at({0, 3, 0}));
         EXPECT_TRUE(shows_on_floor(
             point, [&](const Vec3d& x) { return 3 * through * per_candela(x); }, alpha))
             << sheets << " sheets, point";
@@ -136,7 +136,7 @@ TEST(Opacity, MasksAreAllOrNothing) {
         sheet.base_color_texture.texture = add_texture(scene, half_opaque());
         // Opaque where x > 0.
         place(scene, floor_quad(100, 0.5f), sheet);
-        shine(scene, parallel_sun(), aimed({0, 0, 0}, {0, -1, 0}));
+        place_light(scene, parallel_sun(), aimed({0, 0, 0}, {0, -1, 0}));
         EXPECT_TRUE(shows_on_floor(
             scene, [](const Vec3d& x) { return x.x < 0 ? 3 : 0; }, sidak(significance, 2)));
     }

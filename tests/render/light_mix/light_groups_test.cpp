@@ -128,7 +128,7 @@ TEST(LightGroups, AreMadeByLightObjectMaterialOrHand) {
 
 TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {
     Studio studio;
-    for (int i = 0; i < 20; ++i) shine(studio.scene, lamp("More", Light::Kind::point, 0.1f, {1, 1, 1}), at({float(i), 1, 0}));
+    for (int i = 0; i < 20; ++i) place_light(studio.scene, lamp("More", Light::Kind::point, 0.1f, {1, 1, 1}), at({float(i), 1, 0}));
     const LightGroups groups = make_light_groups(studio.scene);
     ASSERT_EQ(groups.groups.size(), size_t(max_light_groups));
     EXPECT_EQ(groups.sharing, 25 - 15);

@@ -60,7 +60,7 @@ TEST(CarriedMix, FollowsARenamedObjectAndMaterial) {
 
 TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
     Carried s;
-    const Id<Node> second = shine(s.scene, lamp("Bulb", Light::Kind::point, 1, {1, 1, 1}), at({1, 1, 1}));
+    const Id<Node> second = place_light(s.scene, lamp("Bulb", Light::Kind::point, 1, {1, 1, 1}), at({1, 1, 1}));
     s.channel("Bulb").intensity = 2;
     s.channel("Bulb 2").intensity = 5;
     const LightMix mix = rename_mix_channels({s.scene, {}, {}}, std::array<Edit, 1>{RemoveNode{s.bulb}}).value_or(s.scene.mix);
@@ -84,8 +84,8 @@ TEST(CarriedMix, KeepsChannelsOfRemainingMembersOfAManualGroup) {
 // Beyond sixteen groups only those with a channel have their own plane: the renamed group keeps its plane.
 TEST(CarriedMix, KnowsGroupsThatShareAPlane) {
     Carried s;
-    for (int i = 0; i < 20; ++i) shine(s.scene, lamp("Extra", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));
-    const Id<Node> late = shine(s.scene, lamp("Late", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));
+    for (int i = 0; i < 20; ++i) place_light(s.scene, lamp("Extra", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));
+    const Id<Node> late = place_light(s.scene, lamp("Late", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));
     s.channel("Late");
     EXPECT_EQ(s.after(s.changed(late, [](Light& l) { l.name = "Later"; })), Names{"Later"});
 }

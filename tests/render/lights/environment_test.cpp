@@ -100,7 +100,7 @@ protected:
             lamp.kind = i % 2 ? Light::Kind::sphere : Light::Kind::point;
             lamp.radius = i % 2 ? 0.1f : 0;
             lamp.intensity = 3.f / float(lamps);
-            shine(scene, lamp, at({float(i % 7) * 0.5f - 1.5f, 1.2f, float(i / 7) * 0.5f - 1.5f}));
+            place_light(scene, lamp, at({float(i % 7) * 0.5f - 1.5f, 1.2f, float(i / 7) * 0.5f - 1.5f}));
         }
         scene.view = looking({0, 2, 4}, {0, 0.4f, 0}, 0.5f);
         return scene;

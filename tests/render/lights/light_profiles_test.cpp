@@ -24,7 +24,7 @@ Light light_of(Light::Kind kind, float intensity) {
 }
 Scene lit_by(const Light& light, const Transform& pose) {
     Scene scene;
-    shine(scene, light, pose);
+    place_light(scene, light, pose);
     return scene;
 }
 
@@ -199,23 +199,23 @@ Scene lit_by_everything(bool seen) {
     Light light = light_of(Light::Kind::sphere, 3);
     light.visible_to_camera = seen;
     light.radius = 0.3f;
-    shine(scene, light, at({-0.7f, 0.6f, 0}));
+    place_light(scene, light, at({-0.7f, 0.6f, 0}));
     light.kind = Light::Kind::spot;
     light.intensity = 2;
     light.outer_cone_radians = 1.2f;
     light.radius = 0.25f;
-    shine(scene, light, aimed({0.8f, 1.2f, 0}, {0, -1, -0.5f}));
+    place_light(scene, light, aimed({0.8f, 1.2f, 0}, {0, -1, -0.5f}));
     light.kind = Light::Kind::point;
     light.ies = lamp(IesProfile::Type::c);
-    shine(scene, light, aimed({0, 1.4f, 0.6f}, {0, -1, 0}));
+    place_light(scene, light, aimed({0, 1.4f, 0.6f}, {0, -1, 0}));
     light.kind = Light::Kind::rectangle;
     light.intensity = 5;
     light.spread_radians = 1.8f;
     light.width = light.height = 0.6f;
-    shine(scene, light, aimed({0.2f, 1, 0.8f}, {0, -0.3f, -1}));
+    place_light(scene, light, aimed({0.2f, 1, 0.8f}, {0, -0.3f, -1}));
     light.kind = Light::Kind::disk;
     light.radius = 0.4f;
-    shine(scene, light, aimed({-1, 1.5f, 0.5f}, {0.3f, -1, -0.3f}));
+    place_light(scene, light, aimed({-1, 1.5f, 0.5f}, {0.3f, -1, -0.3f}));
     scene.view = looking({0, 1, 4}, {0, 0.6f, 0}, 0.7f);
     return scene;
 }

@@ -33,8 +33,8 @@ struct Desk {
     std::mt19937 bits{29};
 
     void compile() { compiled.update(expand_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1)); }
-    void shine(const Light& light, const Transform& transform) {
-        stability::shine(scene, light, transform);
+    void place_light(const Light& light, const Transform& transform) {
+        stability::place_light(scene, light, transform);
         compile();
     }
     Vec3 receiver() const { return to_float(compiled.origin() * -1); }
@@ -89,7 +89,7 @@ TEST(LightSamples, OfRectanglesAreUniformInArea) {
     Light light = light_of(Light::Kind::rectangle);
     light.width = 2;
     light.height = 0.5f;
-    desk.shine(light, at({0.5f, -0.25f, 3}));
+    desk.place_light(light, at({0.5f, -0.25f, 3}));
     expect_even(
         "rectangle", desk,
         [](const Drawn& d) {
@@ -105,7 +105,7 @@ TEST(LightSamples, OfDisksAreUniformInArea) {
     Desk desk;
     Light light = light_of(Light::Kind::disk);
     light.radius = 1;
-    desk.shine(light, at({0, 0.5f, 2}));
+    desk.place_light(light, at({0, 0.5f, 2}));
     expect_even(
         "disk", desk,
         [&](const Drawn& d) {
@@ -146,7 +146,7 @@ TEST(LightSamples, OfSpheresAreUniformInSolidAngle) {
     Desk desk;
     Light light = light_of(Light::Kind::sphere);
     light.radius = 0.5f;
-    desk.shine(light, at({1, 2, 2}));
+    desk.place_light(light, at({1, 2, 2}));
     const double sin2 = 0.25 / 9, height = sin2 / (1 + std::sqrt(1 - sin2));
     expect_even(
         "sphere", desk,
@@ -161,7 +161,7 @@ TEST(LightSamples, OfSunsAreUniformInSolidAngle) {
     Light light = light_of(Light::Kind::sun);
     light.angle_radians = 0.3f;
     const Vec3 towards = unit({0.3f, 1, -0.4f});
-    desk.shine(light, aimed({0, 0, 0}, {-towards.x, -towards.y, -towards.z}));
+    desk.place_light(light, aimed({0, 0, 0}, {-towards.x, -towards.y, -towards.z}));
     const double height = 1 - std::cos(0.15);
     expect_even(
         "sun", desk, [&](const Drawn& d) { return in_cone(d.direction, towards, height); },

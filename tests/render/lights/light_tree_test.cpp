@@ -51,7 +51,7 @@ Scene mixed_scene(int count) {
     Scene scene;
     place(scene, floor_quad(5), lambert(0.5f));
     for (int i = 0; i < count; ++i)
-        shine(scene, random_light(random, i), aimed({random(-4, 4), random(0.5f, 3), random(-4, 4)}, random.direction()));
+        place_light(scene, random_light(random, i), aimed({random(-4, 4), random(0.5f, 3), random(-4, 4)}, random.direction()));
     constant_world(scene, 0.2f);
     return scene;
 }
@@ -70,7 +70,7 @@ TEST(LightTree, IsBuiltOnlyForManyLights) {
     Light disk;
     disk.kind = Light::Kind::disk;
     disk.radius = 1;
-    shine(few, disk, aimed({0, 2, 0}, {0, -1, 0}));
+    place_light(few, disk, aimed({0, 2, 0}, {0, -1, 0}));
     EXPECT_EQ(Compiled(few).lights().tree.nodes, nullptr) << "a disk is one light, whatever its polygon";
 }
 
@@ -81,7 +81,7 @@ TEST(LightTree, IsNotBuiltOfLightsWithoutPower) {
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 2;
-    shine(scene, sun, aimed({0, 0, 0}, {1, -1, 0}));
+    place_light(scene, sun, aimed({0, 0, 0}, {1, -1, 0}));
     const Compiled compiled(scene);
     EXPECT_GT(compiled.scene.info().emissive_triangles, 32);
     EXPECT_EQ(compiled.lights().tree.nodes, nullptr);
@@ -161,7 +161,7 @@ TEST(LightTree, StrategiesAgree) {
         light.radius = 0.15f;
         light.width = light.height = 0.3f;
         light.intensity = random(0.5f, 4);
-        shine(scene, light, aimed({random(-2, 2), random(0.3f, 2), random(-0.8f, 1.5f)}, random.direction()));
+        place_light(scene, light, aimed({random(-2, 2), random(0.3f, 2), random(-0.8f, 1.5f)}, random.direction()));
     }
     scene.view = looking({0, 1.5f, 4}, {0, 0.6f, 0}, 0.7f);
     EXPECT_NE(Compiled(scene).lights().tree.nodes, nullptr);

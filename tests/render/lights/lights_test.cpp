@@ -33,7 +33,7 @@ const std::vector<Pose> poses = {
 
 Scene lit_by(const Light& light, const Pose& pose) {
     Scene scene;
-    shine(scene, light, aimed(pose.position, pose.direction));
+    place_light(scene, light, aimed(pose.position, pose.direction));
     return scene;
 }
 
@@ -123,7 +123,7 @@ TEST(SphereLight, IsScaledByItsNode) {
         Light light = light_of(kind, 3);
         light.radius = 0.1f;
         Scene scene;
-        shine(scene, light, at({0, 2, 0}, 4));
+        place_light(scene, light, at({0, 2, 0}, 4));
         const double candela = kind == Light::Kind::sphere ? 3 * pi * 0.16 : 3;
         EXPECT_TRUE(shows_on_floor(
             scene,
@@ -199,17 +199,17 @@ TEST(Lights, TakeOneBounce) {
 TEST(Lights, AddUp) {
     const Vec3 place_of_point{0.5f, 0.6f, -0.3f};
     Scene scene;
-    shine(scene, light_of(Light::Kind::point, 5), at(place_of_point));
+    place_light(scene, light_of(Light::Kind::point, 5), at(place_of_point));
     constant_world(scene, 0.25f);
     Light off = light_of(Light::Kind::point, 100);
     off.enabled = false;
-    shine(scene, off, at({0, 1, 0}));
+    place_light(scene, off, at({0, 1, 0}));
     const auto of_point = [&](const Vec3d& x) {
         const Vec3d to = to_double(place_of_point) - x;
         return 5 * to.y / std::pow(length(to), 3);
     };
     Scene with_sun = scene;
-    shine(with_sun, light_of(Light::Kind::sun, 2), aimed({0, 0, 0}, {1, -1, 0}));
+    place_light(with_sun, light_of(Light::Kind::sun, 2), aimed({0, 0, 0}, {1, -1, 0}));
     EXPECT_TRUE(shows_on_floor(
         with_sun, [&](const Vec3d& x) { return of_point(x) + 0.25 * pi + 2 * std::sqrt(0.5); }, sidak(significance, 2)));
 
@@ -217,7 +217,7 @@ TEST(Lights, AddUp) {
     const Light area = light_of(Light::Kind::rectangle, 3);
     const Transform pose = aimed({-1, 1, 0.5f}, {1, -2, 0});
     Scene with_area = scene;
-    shine(with_area, area, pose);
+    place_light(with_area, area, pose);
     const auto corners = rectangle_corners(area, pose);
     const auto expected = [&](const Vec3d& x) { return of_point(x) + 0.25 * pi + (3 - 0.25) * polygon_irradiance(x, up, corners); };
     EXPECT_TRUE(shows_on_floor(with_area, expected, sidak(significance, 2)));

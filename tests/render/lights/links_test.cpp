@@ -29,7 +29,7 @@ struct Stage {
         light.radius = 0.4f;
         light.angle_radians = 0.3f;
         light.width = light.height = 0.8f;
-        lamp = shine(scene, light, aimed({0, 3, 0}, {0.2f, -1, 0.1f}));
+        lamp = place_light(scene, light, aimed({0, 3, 0}, {0.2f, -1, 0.1f}));
         scene.view = looking({0, 2, 4}, {0, 0.3f, 0}, 0.7f);
     }
     void link(const std::function<void(Light&)>& with) {
@@ -162,7 +162,7 @@ TEST(ShadowLinks, WarnIfThereAreTooMany) {
         Light light;
         light.intensity = 0.1f;
         light.shadow_casters = all_but({thing});
-        shine(stage.scene, light, at({0, 2, 0}));
+        place_light(stage.scene, light, at({0, 2, 0}));
     }
     const CasterSets sets(stage.scene);
     EXPECT_EQ(sets.left_out(), 40 - max_caster_sets);

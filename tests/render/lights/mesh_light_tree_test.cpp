@@ -57,7 +57,7 @@ Scene glowing(int count, float shell, bool two_sided = false) {
         Light light;
         light.kind = Light::Kind::point;
         light.intensity = random(0.01f, 0.1f);
-        shine(scene, light, at(random.point(4)));
+        place_light(scene, light, at(random.point(4)));
     }
     return scene;
 }
@@ -199,7 +199,7 @@ TEST(MeshLightTrees, LeaveTheSurfaceOfABallToOtherLights) {
     Light light;
     light.kind = Light::Kind::point;
     light.intensity = 0.01f;
-    shine(scene, light, at({0, 4, 0}));
+    place_light(scene, light, at({0, 4, 0}));
     const Compiled compiled(scene);
     const LightTables& t = compiled.lights();
     ASSERT_NE(t.tree.nodes, nullptr);

@@ -32,7 +32,7 @@ std::string said(const Material& material, const Light& light) {
     Room room;
     room.put(lambert(0.5f));
     room.put(material);
-    shine(room.scene, light, aimed({0, 3, 0}, {0, -1, 0}));
+    place_light(room.scene, light, aimed({0, 3, 0}, {0, -1, 0}));
     return missing_light(room.scene, nodes_with_lights(room.scene), smooth_surfaces(room.scene, room.used));
 }
 
@@ -61,7 +61,7 @@ TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
     place(room.scene, floor_quad(50), lambert(0.5f));
     place(room.scene, cube(false), glass(0, 1.5f), at({0, 2, 0}));
     Light sun = lamp(Light::Kind::sun, 0);
-    shine(room.scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    place_light(room.scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
     room.scene.view = looking_down(0.5f, 0.5f); // the sun's shadow of the cube
     RenderSettings settings = settings_for(16, 16, 16);
     settings.max_bounces = 1;

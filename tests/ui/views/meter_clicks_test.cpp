@@ -30,9 +30,9 @@ struct EmissiveTriangle {
 class DirectLight {
 public:
     explicit DirectLight(const Scene& scene) : scene_(scene) {
-        WorldTransforms placements(scene);
+        WorldTransforms transforms(scene);
         for (const auto& [id, node] : scene.nodes) {
-            const Affined& world = placements(id).world_from_node;
+            const Affined& world = transforms(id).world_from_node;
             if (const Light* light = node.light ? scene.lights.find(node.light) : nullptr) {
                 EXPECT_EQ(light->kind, Light::Kind::sun);
                 suns_.push_back(

@@ -6,7 +6,7 @@
 
 namespace blush {
 
-Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report) {
+Result<void> decompress(GltfSource& source, const ImportOptions& options, ImportReport& report) {
     const GltfContext context{source, options, report};
     DecompressionLimit room(source.model);
     if (const auto ok = decompress_meshopt(source, context, room); !ok) return ok;

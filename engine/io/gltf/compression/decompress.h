@@ -9,6 +9,6 @@
 namespace blush {
 
 // Decompresses KHR_draco_mesh_compression and EXT_meshopt_compression.
-Result<void> unpack(GltfSource& source, const ImportOptions& options, ImportReport& report);
+Result<void> decompress(GltfSource& source, const ImportOptions& options, ImportReport& report);
 
 } // namespace blush

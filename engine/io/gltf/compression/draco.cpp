@@ -85,7 +85,7 @@ bool convert(const draco::PointAttribute& attribute, uint32_t points, int compon
 struct Attribute {
     std::string name;
     int accessor = 0, id = 0; // glTF accessor; attribute id in the Draco mesh
-    std::vector<uint8_t> unpacked = {};
+    std::vector<uint8_t> decompressed = {};
 };
 
 // A primitive to decompress, and the result.
@@ -102,7 +102,7 @@ const tinygltf::Accessor* accessor_at(const tinygltf::Model& model, int index) {
     return index >= 0 && size_t(index) < model.accessors.size() ? &model.accessors[size_t(index)] : nullptr;
 }
 
-bool needs_unpacking(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+bool needs_decompression(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     const auto has_bytes = [&](int index) {
         const tinygltf::Accessor* const accessor = accessor_at(model, index);
         return accessor && accessor->bufferView >= 0;
@@ -127,7 +127,7 @@ struct PackedMeshes {
 
     Result<void> add(tinygltf::Primitive& primitive, const std::string& where) {
         const GltfObject extension = GltfObject(context, primitive.extensions, where + ".extensions").object(draco_extension);
-        if (!extension || !needs_unpacking(context.model(), primitive)) return {};
+        if (!extension || !needs_decompression(context.model(), primitive)) return {};
         const auto bytes = buffer_view_bytes(context, extension.integer("bufferView").value_or(-1), extension.where());
         if (!bytes) return bytes.error();
         const auto faces = Header(*bytes).faces();
@@ -164,7 +164,7 @@ std::vector<uint8_t> indices_of(const draco::Mesh& mesh) {
 }
 
 // Thread-safe for distinct primitives.
-Result<void> unpack(const GltfContext& context, Packed& packed) {
+Result<void> decompress(const GltfContext& context, Packed& packed) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size());
     const auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -178,7 +178,8 @@ Result<void> unpack(const GltfContext& context, Packed& packed) {
         if (!values) return context.error(fmt::format("the Draco mesh has no attribute {}", attribute.id), where);
         const tinygltf::Accessor& described = *accessor_at(context.model(), attribute.accessor);
         const int components = tinygltf::GetNumComponentsInType(uint32_t(described.type));
-        if (element_bytes(described) == 0 || !convert(*values, mesh.num_points(), components, described.componentType, attribute.unpacked))
+        if (element_bytes(described) == 0 ||
+            !convert(*values, mesh.num_points(), components, described.componentType, attribute.decompressed))
             return context.error("the Draco attribute does not match its accessor", where);
     }
     packed.indices = indices_of(mesh);
@@ -196,10 +197,10 @@ int add(GltfSource& source, tinygltf::Accessor accessor, size_t count, std::vect
 }
 
 // Adds new accessors: primitives that share one may have different vertex orders.
-void take_unpacked(GltfSource& source, Packed& packed) {
+void take_decompressed(GltfSource& source, Packed& packed) {
     for (Attribute& attribute : packed.attributes)
         packed.primitive->attributes[attribute.name] =
-            add(source, *accessor_at(source.model, attribute.accessor), packed.points, std::move(attribute.unpacked));
+            add(source, *accessor_at(source.model, attribute.accessor), packed.points, std::move(attribute.decompressed));
     tinygltf::Accessor indices;
     indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     indices.type = TINYGLTF_TYPE_SCALAR;
@@ -217,10 +218,10 @@ Result<void> decompress_draco(GltfSource& source, const GltfContext& context, De
         for (size_t p = 0; p < source.model.meshes[m].primitives.size(); ++p)
             if (const auto ok = packed.add(source.model.meshes[m].primitives[p], fmt::format("meshes[{}].primitives[{}]", m, p)); !ok)
                 return ok;
-    const auto read = read_in_parallel(context, {packed.sizes, large, "unpacking", 0.1, 0.3, context.options.threads},
-                                       [&](const GltfContext& own, size_t i) { return unpack(own, packed.found[i]); });
+    const auto read = read_in_parallel(context, {packed.sizes, large, "decompressing", 0.1, 0.3, context.options.threads},
+                                       [&](const GltfContext& own, size_t i) { return decompress(own, packed.found[i]); });
     if (!read) return read;
-    for (Packed& each : packed.found) take_unpacked(source, each);
+    for (Packed& each : packed.found) take_decompressed(source, each);
     return {};
 }
 

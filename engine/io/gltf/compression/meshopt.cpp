@@ -23,13 +23,13 @@ struct Stream {
     std::span<const uint8_t> bytes;
     uint64_t count = 0, stride = 0;
     std::string mode, filter;
-    uint64_t unpacked_bytes() const { return count * stride; }
+    uint64_t decompressed_bytes() const { return count * stride; }
 };
 
 struct PackedView {
     size_t index = 0;
     Stream stream;
-    std::vector<uint8_t> unpacked;
+    std::vector<uint8_t> decompressed;
 };
 
 // Names from the specification of the extension ("Specifying compressed views").
@@ -73,7 +73,7 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
         return context.error(fmt::format("{} elements of {} bytes, mode '{}', filter '{}' are not valid for the extension", count, stride,
                                          stream.mode.substr(0, 40), stream.filter.substr(0, 40)),
                              extension.where());
-    if (stream.unpacked_bytes() > max_compression_ratio * stream.bytes.size())
+    if (stream.decompressed_bytes() > max_compression_ratio * stream.bytes.size())
         return context.error(fmt::format("{} bytes cannot describe {} elements of {} bytes", length, count, stride), extension.where());
     return stream;
 }
@@ -82,7 +82,7 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
 
 Result<void> decompress_meshopt(GltfSource& source, const GltfContext& context, DecompressionLimit& room) {
     std::vector<PackedView> views;
-    GltfPieces pieces{{}, large, "unpacking", 0, 0.1, context.options.threads};
+    GltfPieces pieces{{}, large, "decompressing", 0, 0.1, context.options.threads};
     for (size_t i = 0; i < source.model.bufferViews.size(); ++i) {
         const std::string where = fmt::format("bufferViews[{}]", i);
         const GltfObject extension =
@@ -90,23 +90,23 @@ Result<void> decompress_meshopt(GltfSource& source, const GltfContext& context, 
         if (!extension) continue;
         Result<Stream> stream = read_stream(context, extension);
         if (!stream) return stream.error();
-        if (const auto ok = room.take(context, double(stream->unpacked_bytes()), "bufferViews"); !ok) return ok;
-        pieces.sizes.push_back(int64_t(stream->unpacked_bytes()));
+        if (const auto ok = room.take(context, double(stream->decompressed_bytes()), "bufferViews"); !ok) return ok;
+        pieces.sizes.push_back(int64_t(stream->decompressed_bytes()));
         views.push_back({i, *std::move(stream), {}});
     }
     const auto read = read_in_parallel(context, pieces, [&](const GltfContext& own, size_t i) -> Result<void> {
         PackedView& view = views[i];
-        view.unpacked.resize(size_t(view.stream.unpacked_bytes()));
-        if (decode(view.stream, view.unpacked)) return {};
+        view.decompressed.resize(size_t(view.stream.decompressed_bytes()));
+        if (decode(view.stream, view.decompressed)) return {};
         return own.error("the compressed bytes cannot be decoded", fmt::format("bufferViews[{}]", view.index));
     });
     if (!read) return read;
     for (PackedView& packed : views) {
         tinygltf::BufferView& view = source.model.bufferViews[packed.index];
         if (packed.stream.mode == "ATTRIBUTES") view.byteStride = size_t(packed.stream.stride);
-        view.byteLength = packed.unpacked.size();
+        view.byteLength = packed.decompressed.size();
         view.byteOffset = 0;
-        view.buffer = add_decompressed_buffer(source, std::move(packed.unpacked));
+        view.buffer = add_decompressed_buffer(source, std::move(packed.decompressed));
     }
     return {};
 }

@@ -169,7 +169,7 @@ Result<ImportedScene> import_gltf(const std::filesystem::path& file, const Impor
         Result<GltfSource> source = load_gltf(file);
         if (!source) return source.error();
         ImportedScene imported;
-        if (const auto ok = unpack(*source, options, imported.report); !ok) return ok.error();
+        if (const auto ok = decompress(*source, options, imported.report); !ok) return ok.error();
         if (const auto ok = convert_gltf(GltfContext{*source, options, imported.report}, imported); !ok) return ok.error();
         imported.origin.file = file;
         imported.origin.json = source->text;

@@ -40,10 +40,10 @@ Result<std::vector<Id<Material>>> materials_by_variant(const GltfContext& contex
     const std::string where = fmt::format("meshes[{}].primitives[{}].extensions.{}", mesh, primitive, extension);
     const ParsedGltf& object = gltf_element(gltf_member(gltf_item(context.json(), "meshes", mesh), "primitives"), primitive);
     const ParsedGltf& mappings = gltf_member(gltf_member(gltf_member(object, "extensions"), extension), "mappings");
-    std::vector<Id<Material>> worn;
-    if (!mappings.is_array() || mappings.empty() || variants == 0) return worn;
-    worn.resize(variants + 1);
-    worn[0] = material;
+    std::vector<Id<Material>> by_variant;
+    if (!mappings.is_array() || mappings.empty() || variants == 0) return by_variant;
+    by_variant.resize(variants + 1);
+    by_variant[0] = material;
     for (const ParsedGltf& mapping : mappings) {
         const ParsedGltf& index = gltf_member(mapping, "material");
         if (!index.is_number_unsigned() || index.get<uint64_t>() >= materials.size())
@@ -51,11 +51,11 @@ Result<std::vector<Id<Material>>> materials_by_variant(const GltfContext& contex
         for (const ParsedGltf& variant : gltf_member(mapping, "variants")) {
             if (!variant.is_number_unsigned() || variant.get<uint64_t>() >= variants)
                 context.warn("ignored: a mapping for a variant that does not exist", where);
-            else if (Id<Material>& slot = worn[variant.get<size_t>() + 1]; !slot)
+            else if (Id<Material>& slot = by_variant[variant.get<size_t>() + 1]; !slot)
                 slot = materials[index.get<size_t>()];
         }
     }
-    return worn;
+    return by_variant;
 }
 
 void write_variants(Json& primitive, const MeshPart& part, const std::map<Id<Material>, int>& materials) {

@@ -88,7 +88,7 @@ void write_fallback(GltfDocument& document, int node, const Light& light) {
     set_flag(material, "doubleSided", light.two_sided);
 }
 
-bool glows(const Light* light) {
+bool emits_light(const Light* light) {
     if (!light || list_for(light->kind) != GltfLight::List::area) return false;
     const PlainEmission e = plain_emission(*light);
     return e.intensity > 0 && std::max({e.color.x, e.color.y, e.color.z}) > 0;
@@ -123,7 +123,7 @@ void write_fallbacks(GltfDocument& document, const Scene& scene) {
         const auto place = document.indices.lights.find(node.light);
         const bool area = place != document.indices.lights.end() && place->second.list == GltfLight::List::area;
         const Light* light = area ? scene.lights.find(node.light) : nullptr;
-        const size_t corners = glows(light) ? corners_of(*light) : 0;
+        const size_t corners = emits_light(light) ? corners_of(*light) : 0;
         int fallback = take_fallback(document, document.object("nodes", index), corners);
         if (corners == 0) continue;
         if (fallback < 0) {

@@ -47,7 +47,7 @@ Json primitive_of(GltfDocument& document, const Geometry& g) {
         if (!vectors.empty()) attributes[name] = append_vectors(document, vectors);
     };
     // Face normals of deformed meshes are not written: they are recomputed after deformation.
-    if (const bool bends = !g.targets.empty() || !g.influences.empty(); !(g.flat && bends)) {
+    if (const bool deforms = !g.targets.empty() || !g.influences.empty(); !(g.flat && deforms)) {
         add("NORMAL", g.normals);
         add("TANGENT", g.tangents);
     }
@@ -183,7 +183,7 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
             set_index(primitive, "material", material == document.indices.materials.end() ? -1 : material->second);
             write_variants(primitive, mesh.parts[part], document.indices.materials);
             int uv_sets = 0;
-            for (const Id<Material> worn : materials_of(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, worn));
+            for (const Id<Material> material : materials_of(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, worn));
             provide_uv_sets(document, primitive, uv_sets);
         }
     }

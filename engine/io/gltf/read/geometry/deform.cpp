@@ -130,7 +130,7 @@ Result<void> read_deformation(const GltfContext& context, const tinygltf::Primit
 }
 
 void limit_deformation(const GltfContext& context, Scene& scene) {
-    const auto vertices_that_bend = [&](const Node& node) {
+    const auto deformed_vertices = [&](const Node& node) {
         const Mesh* mesh = scene.meshes.find(node.mesh);
         size_t count = 0;
         for (size_t p = 0; mesh && p < mesh->parts.size(); ++p)
@@ -141,7 +141,7 @@ void limit_deformation(const GltfContext& context, Scene& scene) {
     std::set<Id<Node>> at_rest;
     size_t sum = 0;
     for (const auto& [id, node] : scene.nodes) {
-        const size_t count = vertices_that_bend(node);
+        const size_t count = deformed_vertices(node);
         sum += count;
         if (count > 0 && sum > max_deformed_vertices) at_rest.insert(id);
     }

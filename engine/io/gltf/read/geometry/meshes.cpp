@@ -30,12 +30,12 @@ struct MeshReader {
         if (primitive.material >= 0 && size_t(primitive.material) >= materials.size())
             return own.error(fmt::format("material {} does not exist; there are {}", primitive.material, materials.size()), where);
         const Id<Material> material = primitive.material >= 0 ? materials[size_t(primitive.material)] : Id<Material>();
-        Result<std::vector<Id<Material>>> worn = materials_by_variant(own, index, p, material, materials, scene.variants.size());
-        if (!worn) return worn.error();
-        Result<GeometryPtr> geometry = own.known ? GeometryPtr() : import_geometry(own, primitive, material, *worn, where);
+        Result<std::vector<Id<Material>>> by_variant = materials_by_variant(own, index, p, material, materials, scene.variants.size());
+        if (!by_variant) return by_variant.error();
+        Result<GeometryPtr> geometry = own.known ? GeometryPtr() : import_geometry(own, primitive, material, *by_variant, where);
         if (!geometry) return geometry.error();
         if (!*geometry && !is_known_part(index, p)) return std::optional<MeshPart>();
-        return std::optional(MeshPart{*std::move(geometry), material, *std::move(worn)});
+        return std::optional(MeshPart{*std::move(geometry), material, *std::move(by_variant)});
     }
 
     // The mesh without its parts.

@@ -21,7 +21,7 @@ struct Instance {
     int node = 0, profile = 0;
     float multiplier = 1;
     Vec3 color{1, 1, 1};
-    auto shine() const { return std::tuple(profile, multiplier, color.x, color.y, color.z); }
+    auto light_key() const { return std::tuple(profile, multiplier, color.x, color.y, color.z); }
 };
 
 std::string uri_of(const ParsedGltf& profile) {
@@ -112,10 +112,10 @@ Result<IesLights> read_ies_lights(const GltfContext& context, const std::vector<
     const ParsedGltf& list = gltf_member(gltf_member(gltf_member(context.json(), "extensions"), ies_extension), "lights");
     const Result<std::vector<Instance>> instances = instances_of(context, nodes, list.is_array() ? list.size() : 0);
     if (!instances) return instances.error();
-    std::map<decltype(Instance().shine()), size_t> known;
+    std::map<decltype(Instance().light_key()), size_t> known;
     std::map<int, Profile> profiles;
     for (const Instance& instance : *instances) {
-        const auto [light, is_new] = known.try_emplace(instance.shine(), measured.lights.size());
+        const auto [light, is_new] = known.try_emplace(instance.light_key(), measured.lights.size());
         measured.by_node[instance.node] = light->second;
         if (!is_new) continue;
         const ParsedGltf& json = gltf_element(list, size_t(instance.profile));
