@@ -1,4 +1,4 @@
-// Checks tests/gltf_coverage.md against the importer and the existing tests.
+// Checks docs/reference/gltf.md against the importer and the existing tests.
 #include "io/gltf/read/extensions.h"
 #include "tests/io/gltf/builder.h"
 
@@ -39,7 +39,7 @@ std::vector<std::string> all_matches(const std::string& text, const char* patter
 }
 
 std::vector<Row> coverage() {
-    std::istringstream lines(text_of(std::filesystem::path(BLUSH_TESTS) / "gltf_coverage.md"));
+    std::istringstream lines(text_of(std::filesystem::path(BLUSH_TESTS).parent_path() / "docs/reference/gltf.md"));
     std::vector<Row> rows;
     for (std::string line; std::getline(lines, line);) {
         if (!line.starts_with("| ") || line.starts_with("| What |")) continue;

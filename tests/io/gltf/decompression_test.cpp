@@ -40,7 +40,7 @@ std::string error_with(const GltfBuilder& b, unsigned threads) {
     return imported ? "" : imported.error().what + ", " + imported.error().where;
 }
 
-TEST(GltfUnpacking, ResultDoesNotDependOnThreads) {
+TEST(GltfDecompression, ResultDoesNotDependOnThreads) {
     const GltfBuilder b = packed_by_both();
     const auto serial = import_with(b, 1);
     ASSERT_TRUE(serial) << error_text(serial);
@@ -55,7 +55,7 @@ TEST(GltfUnpacking, ResultDoesNotDependOnThreads) {
     }
 }
 
-TEST(GltfUnpacking, TheFirstErrorInTheFileIsReported) {
+TEST(GltfDecompression, TheFirstErrorInTheFileIsReported) {
     GltfBuilder draco = packed_by_both(), meshopt = draco;
     for (const size_t mesh : {4, 8, 14}) {
         const size_t view = draco.json["meshes"][mesh]["primitives"][0]["extensions"][draco_extension]["bufferView"];
@@ -75,7 +75,7 @@ TEST(GltfUnpacking, TheFirstErrorInTheFileIsReported) {
     }
 }
 
-TEST(GltfUnpacking, CanBeCancelledAnywhere) {
+TEST(GltfDecompression, CanBeCancelledAnywhere) {
     const GltfBuilder b = packed_by_both();
     for (const unsigned threads : {1u, 8u})
         for (const double when : {0.02, 0.06, 0.15, 0.25}) {
@@ -97,7 +97,7 @@ TEST(GltfUnpacking, CanBeCancelledAnywhere) {
 }
 
 // Compressed bytes that are referenced many times would exceed the memory: detected before decompression.
-TEST(GltfUnpacking, DecompressedSizeIsLimited) {
+TEST(GltfDecompression, DecompressedSizeIsLimited) {
     const Sheet sheet(200);
     GltfBuilder draco = packed_by_draco(sheet, draco_bytes(sheet, 10, 8));
     EXPECT_EQ(error_with(draco, 2), "");

@@ -24,7 +24,7 @@ Result<ImportedScene> with_light(Json light) {
     return import_built(b);
 }
 
-TEST(GltfSuspicions, ImplausibleIntensities) {
+TEST(GltfLint, ImplausibleIntensities) {
     const std::string where = "extensions.KHR_lights_punctual.lights[0].intensity";
     EXPECT_EQ(place_of(with_light({{"type", "point"}, {"intensity", 50000}}), "were they watts?"), where);
     EXPECT_EQ(place_of(with_light({{"type", "point"}, {"intensity", 130}}), "candela"), "none") << "a bulb of 100 W";
@@ -40,7 +40,7 @@ TEST(GltfSuspicions, ImplausibleIntensities) {
     EXPECT_EQ(place_of(import_built(b), "filament"), "materials[0]");
 }
 
-TEST(GltfSuspicions, InnerConesWiderThanOuterCones) {
+TEST(GltfLint, InnerConesWiderThanOuterCones) {
     const auto wrong = with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.9}, {"outerConeAngle", 0.5}}}});
     EXPECT_EQ(place_of(wrong, "the inner cone, 0.9 rad, is wider than the outer one, 0.5 rad"),
               "extensions.KHR_lights_punctual.lights[0].spot");
@@ -48,7 +48,7 @@ TEST(GltfSuspicions, InnerConesWiderThanOuterCones) {
     EXPECT_EQ(place_of(with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}), "cone"), "none");
 }
 
-TEST(GltfSuspicions, CamerasWithoutADirection) {
+TEST(GltfLint, CamerasWithoutADirection) {
     const auto scaled = [](const std::vector<double>& by) {
         GltfBuilder b;
         b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
@@ -60,7 +60,7 @@ TEST(GltfSuspicions, CamerasWithoutADirection) {
     EXPECT_EQ(place_of(scaled({-1, 2, 1e-3}), "a camera"), "none");
 }
 
-TEST(GltfSuspicions, ImplausibleSceneSizes) {
+TEST(GltfLint, ImplausibleSceneSizes) {
     const auto scaled = [](float by) {
         GltfBuilder b;
         const int node = b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
@@ -72,7 +72,7 @@ TEST(GltfSuspicions, ImplausibleSceneSizes) {
     EXPECT_EQ(place_of(scaled(1), "across"), "none");
 }
 
-TEST(GltfSuspicions, DegenerateGeometry) {
+TEST(GltfLint, DegenerateGeometry) {
     GltfBuilder b;
     const int positions = b.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3");
     const int normals = b.accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 0.995f, 0, 0, 1}, "VEC3");
@@ -103,7 +103,7 @@ Result<ImportedScene> with_image(const std::vector<float>& rgb, const Json& mate
 const Json as_color{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
 const Json as_normals{{"normalTexture", {{"index", 0}}}};
 
-TEST(GltfSuspicions, ImagesUsedAsColourAndData) {
+TEST(GltfLint, ImagesUsedAsColourAndData) {
     Json both = as_color;
     both["normalTexture"] = {{"index", 0}};
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, both), "as colour for a base colour texture and as data for a normal texture"),
@@ -111,7 +111,7 @@ TEST(GltfSuspicions, ImagesUsedAsColourAndData) {
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_color), "as data"), "none");
 }
 
-TEST(GltfSuspicions, ImplausibleNormalMaps) {
+TEST(GltfLint, ImplausibleNormalMaps) {
     EXPECT_EQ(place_of(with_image({0.8f, 0.2f, 0.1f}, as_normals), "does not look like one"), "images[0]");
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_normals), "does not look like one"), "none");
 }
@@ -130,7 +130,7 @@ std::string with_srgb_chunk(std::string png) {
 }
 std::string without_srgb_chunk(std::string png) { return with_srgb_chunk(std::move(png)).erase(33, 13); }
 
-TEST(GltfSuspicions, DataMarkedAsSrgb) {
+TEST(GltfLint, DataMarkedAsSrgb) {
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_normals, with_srgb_chunk), "marked as sRGB"), "images[0]");
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_normals, without_srgb_chunk), "marked as sRGB"), "none");
     EXPECT_EQ(place_of(with_image({0.5f, 0.5f, 1}, as_color, with_srgb_chunk), "marked as sRGB"), "none");

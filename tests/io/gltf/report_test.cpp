@@ -85,7 +85,7 @@ template <size_t N> bool is_among(const Exception (&exceptions)[N], const std::s
     return std::ranges::count(exceptions, file, &Exception::file) > 0;
 }
 
-TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
+TEST(GltfValidation, ErrorsOfTheValidatorAreRefusedOrReported) {
     REQUIRE_VALIDATOR();
     const TempFolder folder;
     size_t wrong = 0;
@@ -97,7 +97,7 @@ TEST(GltfVerdicts, ErrorsOfTheValidatorAreRefusedOrReported) {
     EXPECT_GT(wrong, 100u);
 }
 
-TEST(GltfVerdicts, ValidFilesAreReadWithoutWarnings) {
+TEST(GltfValidation, ValidFilesAreReadWithoutWarnings) {
     REQUIRE_VALIDATOR();
     const TempFolder folder;
     const GltfFiles sound = sound_files();
