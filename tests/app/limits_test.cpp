@@ -130,7 +130,7 @@ double mean_of(const std::string& exr) {
     return sum / double(image.find("G")->values.size());
 }
 
-TEST(Said, NoLightInAFileSuggestsALightRig) {
+TEST(Warnings, NoLightInAFileSuggestsALightRig) {
     const TemporaryFolder folder;
     const std::string scene = triangle_file(folder, 2);
     const std::vector<std::string> arguments{"render", scene, "-o", folder / "a.exr", "--size", "64x48", "--spp", "16"};
@@ -156,7 +156,7 @@ TEST(Said, NoLightInAFileSuggestsALightRig) {
     EXPECT_NE(own.err.find("has light of its own"), std::string::npos) << own.err;
 }
 
-TEST(Said, NothingIsVisible) {
+TEST(Warnings, NothingIsVisible) {
     const TemporaryFolder folder;
     for (const double z : {2.0, -2.0}) {
         const Json json = test::blush_json(
@@ -165,7 +165,7 @@ TEST(Said, NothingIsVisible) {
     }
 }
 
-TEST(Said, EnvironmentsWithInvalidRadiance) {
+TEST(Warnings, EnvironmentsWithInvalidRadiance) {
     const TemporaryFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     ASSERT_TRUE(write_exr(folder / "sky.exr", {2, 1, {{"R", {1, nan}}, {"G", {1, inf}}, {"B", {1, -1}}}, {}}));
@@ -174,7 +174,7 @@ TEST(Said, EnvironmentsWithInvalidRadiance) {
     EXPECT_NE(json["warnings"].dump().find("3 values are negative or not finite"), std::string::npos) << json["warnings"];
 }
 
-TEST(Said, ComparedPixelsThatAreNotFinite) {
+TEST(Warnings, ComparedPixelsThatAreNotFinite) {
     const TemporaryFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto write = [&](const char* name, std::vector<float> values) {

@@ -18,7 +18,7 @@ namespace {
 using Floats = GeometryArray<float>;
 constexpr auto attribute = Attribute(200); // whose elements here are single floats
 
-TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
+TEST(GeometryArena, RangesDoNotOverlapAndAreReused) {
     std::vector<std::pair<int64_t, ArenaRangePtr>> taken;
     for (const size_t count : {1, 5000, 1024, 70000}) taken.emplace_back(int64_t(count), reserve_arena_range(ArenaKind::vertices, count));
     for (const auto& [count, numbers] : taken) {
@@ -32,7 +32,7 @@ TEST(NumberedArrays, RangesDoNotOverlapAndAreReused) {
     EXPECT_EQ(reserve_arena_range(ArenaKind::vertices, 5000)->first(), first) << "a free range is reused";
 }
 
-TEST(NumberedArrays, AdjacentFreeRangesAreMerged) {
+TEST(GeometryArena, AdjacentFreeRangesAreMerged) {
     for (const std::array<int, 3>& order : {std::array{0, 1, 2}, {2, 1, 0}, {0, 2, 1}, {1, 0, 2}}) {
         std::array<ArenaRangePtr, 3> three;
         for (ArenaRangePtr& numbers : three) numbers = reserve_arena_range(ArenaKind::indices, 4096);
@@ -43,7 +43,7 @@ TEST(NumberedArrays, AdjacentFreeRangesAreMerged) {
     }
 }
 
-TEST(NumberedArrays, TooLargeRangesAreRefused) {
+TEST(GeometryArena, TooLargeRangesAreRefused) {
     EXPECT_FALSE(reserve_arena_range(ArenaKind::vertices, size_t(arena_capacity(ArenaKind::vertices)) + 1));
     EXPECT_FALSE(reserve_arena_range(ArenaKind::indices, SIZE_MAX));
     const ArenaRangePtr all_but_few = reserve_arena_range(ArenaKind::vertices, size_t(arena_capacity(ArenaKind::vertices)) - (1 << 20));
@@ -51,7 +51,7 @@ TEST(NumberedArrays, TooLargeRangesAreRefused) {
     EXPECT_FALSE(reserve_arena_range(ArenaKind::vertices, 1 << 20 | 1));
 }
 
-TEST(NumberedArrays, ReturnedMemoryIsZero) {
+TEST(GeometryArena, ReturnedMemoryIsZero) {
     float* base = attribute_base<float>(attribute);
     ASSERT_TRUE(base);
     ArenaRangePtr numbers = reserve_arena_range(ArenaKind::vertices, 3000);
@@ -62,13 +62,13 @@ TEST(NumberedArrays, ReturnedMemoryIsZero) {
     EXPECT_TRUE(std::all_of(base + first, base + first + 3000, [](float f) { return f == 0; }));
 }
 
-TEST(NumberedArrays, TheLastElementHasAnAddress) {
+TEST(GeometryArena, TheLastElementHasAnAddress) {
     const auto last = arena_capacity(ArenaKind::vertices) - 1;
     EXPECT_EQ(attribute_base<float>(attribute)[last], 0);
     EXPECT_EQ(index_base()[arena_capacity(ArenaKind::indices) - 1], 0u);
 }
 
-TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
+TEST(GeometryArena, VectorsUseTheArenaOnlyForTheReservedSize) {
     const ArenaRangePtr numbers = reserve_arena_range(ArenaKind::vertices, 100);
     float* place = attribute_base<float>(attribute) + numbers->first();
     Floats placed{PlacedAllocator<float>(place, 100)};
@@ -94,7 +94,7 @@ TEST(NumberedArrays, VectorsUseTheArenaOnlyForTheReservedSize) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more address space themselves
-TEST(NumberedArraysDeathTest, NoRangesWithoutAddressSpace) {
+TEST(GeometryArenaDeathTest, NoRangesWithoutAddressSpace) {
     GTEST_FLAG_SET(death_test_style, "threadsafe"); // a separate process without reserved addresses
     const auto with_few_addresses = [] {
         rlimit few{};

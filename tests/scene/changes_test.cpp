@@ -96,7 +96,7 @@ TEST(Diff, NodeEdits) {
     EXPECT_EQ(of([](Node& n) { n.morph_weights = {1}; }), structure);
 }
 
-TEST(Diff, StagingEdits) {
+TEST(Diff, SceneSelectionEdits) {
     Sample s = sample_project();
     const auto of = [&](const SceneSelection& staging) { return seen(changes_of(s, SetSceneSelection{staging})); };
     const Seen motion = only([](Changes& c) { c.motion = true; });

@@ -28,7 +28,7 @@ struct TwoLamps {
     bool place_light(Id<Light> id) const { return emits_light(*scene.lights.find(id), any_solo(scene)); }
 };
 
-TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
+TEST(LightVisibility, SoloMutesOthersAndMuteTakesPrecedence) {
     for (const bool key_on : {false, true})
         for (const bool key_solo : {false, true})
             for (const bool fill_on : {false, true})
@@ -40,7 +40,7 @@ TEST(Shining, SoloMutesOthersAndMuteTakesPrecedence) {
                 }
 }
 
-TEST(Shining, ADeletedSoloLightIsIgnored) {
+TEST(LightVisibility, ADeletedSoloLightIsIgnored) {
     TwoLamps s;
     s.set(s.key, true, true);
     s.scene.nodes.remove(s.scene.nodes.begin()->id);
@@ -48,13 +48,13 @@ TEST(Shining, ADeletedSoloLightIsIgnored) {
     EXPECT_TRUE(s.place_light(s.fill));
 }
 
-TEST(Shining, WithoutSoloTheSceneIsTheSame) {
+TEST(LightVisibility, WithoutSoloTheSceneIsTheSame) {
     TwoLamps s;
     s.set(s.key, false, false);
     EXPECT_TRUE(with_solo_applied(s.scene) == s.scene);
 }
 
-TEST(Shining, AppliedSoloUsesOnlyEnabled) {
+TEST(LightVisibility, AppliedSoloUsesOnlyEnabled) {
     TwoLamps s;
     s.set(s.key, true, true);
     Material glow;
@@ -92,7 +92,7 @@ struct AllKinds : TwoLamps {
     float environment_applied() const { return with_solo_applied(scene).environment.intensity; }
 };
 
-TEST(Shining, ASurfaceMayBeSoloAndMuted) {
+TEST(LightVisibility, ASurfaceMayBeSoloAndMuted) {
     AllKinds s;
     s.set_glow(false, false);
     EXPECT_EQ(s.glow_applied(), 0);
@@ -108,7 +108,7 @@ TEST(Shining, ASurfaceMayBeSoloAndMuted) {
     EXPECT_TRUE(with_solo_applied(with_solo_applied(s.scene)) == with_solo_applied(s.scene));
 }
 
-TEST(Shining, TheEnvironmentMayBeSolo) {
+TEST(LightVisibility, TheEnvironmentMayBeSolo) {
     AllKinds s;
     s.scene.environment.solo = true;
     EXPECT_EQ(s.environment_applied(), 1);

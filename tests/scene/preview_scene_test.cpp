@@ -19,7 +19,7 @@ Material untextured_of(const Material& material) {
     return *preview_scene(with_material(material)).materials.find(sample.red);
 }
 
-TEST(Untextured, NoTexturesRemain) {
+TEST(PreviewScene, NoTexturesRemain) {
     const test::Sample sample = test::sample_project();
     Material material;
     for (const TextureSlot& slot : texture_slots) (material.*slot.ref).texture = sample.checker;
@@ -30,7 +30,7 @@ TEST(Untextured, NoTexturesRemain) {
     EXPECT_TRUE(validate(scene));
 }
 
-TEST(Untextured, TexturedColoursAreDimmedAndTexturedMetalIsNone) {
+TEST(PreviewScene, TexturedColoursAreDimmedAndTexturedMetalIsNone) {
     const test::Sample sample = test::sample_project();
     Material material;
     material.base_color = {1, 0.5f, 0};
@@ -44,7 +44,7 @@ TEST(Untextured, TexturedColoursAreDimmedAndTexturedMetalIsNone) {
     EXPECT_EQ(shown.roughness, material.roughness);
 }
 
-TEST(Untextured, UntexturedMaterialsAreUnchanged) {
+TEST(PreviewScene, UntexturedMaterialsAreUnchanged) {
     Material material;
     material.base_color = {0.3f, 0.2f, 0.1f};
     material.emissive = {5, 5, 5};

@@ -85,7 +85,7 @@ TEST(MaxBounces, TextRoundTrips) {
     for (const char* bad : {"", "-1", "many", "3x", "1.5", "99999999999"}) EXPECT_FALSE(parse_max_bounces(bad)) << bad;
 }
 
-TEST(Words, RoundTrip) {
+TEST(EnumNames, RoundTrip) {
     for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
     for (const PixelFilter f : {PixelFilter::blackman_harris, PixelFilter::box}) EXPECT_EQ(*parse_filter(to_string(f)), f);
     for (const SamplerType n : {SamplerType::sobol, SamplerType::random}) EXPECT_EQ(*parse_sampler(to_string(n)), n);

@@ -25,7 +25,7 @@ GeometryPtr unit_rectangle() {
     return shared;
 }
 
-// A regular polygon in the XY plane, facing -Z, with the area of the unit disk.
+// Tessellates a disk: a regular polygon in the XY plane, facing -Z, with the area of the unit disk.
 GeometryPtr make_unit_disk(uint32_t corners) {
     const double step = 2 * std::numbers::pi / corners;
     const double radius = std::sqrt(step / std::sin(step));

@@ -27,7 +27,7 @@ GeometryPtr sheet(uint32_t n) {
     return g;
 }
 
-TEST(CompactTree, IsUsedIfMemoryIsShort) {
+TEST(CompactBvh, IsUsedIfMemoryIsShort) {
     constexpr uint64_t gigabyte = 1'000'000'000;
     EXPECT_FALSE(needs_compact_bvh(1'000'000, 4 * gigabyte));
     EXPECT_TRUE(needs_compact_bvh(1'000'000, gigabyte / 10));
@@ -36,7 +36,7 @@ TEST(CompactTree, IsUsedIfMemoryIsShort) {
 }
 
 // Ray-triangle tests use the same arithmetic, so the image does not depend on the available memory.
-TEST(CompactTree, HitsTheSameTrianglesBitForBit) {
+TEST(CompactBvh, HitsTheSameTrianglesBitForBit) {
     const GeometryPtr shape = sheet(150);
     const size_t triangles = shape->triangle_count();
     const std::vector<InstanceRecord> places{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1f, 0.2f, 0.3f}}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -83,7 +83,7 @@ TEST(CompactTree, HitsTheSameTrianglesBitForBit) {
     EXPECT_GT(met, n / 10);
 }
 
-TEST(CompactTree, IsNotUsedIfMemorySuffices) {
+TEST(CompactBvh, IsNotUsedIfMemorySuffices) {
     Scene scene;
     place(scene, sheet(520), lambert(0.5f));
     constant_world(scene, 1);

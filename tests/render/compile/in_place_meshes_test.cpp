@@ -65,7 +65,7 @@ Scene scene_with(const GeometryPtr& shape, const Material& material) {
     return scene;
 }
 
-TEST(Placed, OnlyLargeInstancedMeshesAre) {
+TEST(ArenaGeometry, HoldsOnlyLargeInstancedMeshes) {
     const GeometryPtr placed = large(true), bare = large(false);
     ASSERT_TRUE(arena_offsets(*placed));
     EXPECT_FALSE(arena_offsets(*bare));
@@ -84,7 +84,7 @@ TEST(Placed, OnlyLargeInstancedMeshesAre) {
     EXPECT_FALSE(arena_offsets(g));
 }
 
-TEST(Placed, RenderLikeCopies) {
+TEST(ArenaGeometry, RendersLikeCopies) {
     for (const Material& material : {plastic(0.3f), emitter(1, 0.5f)}) {
         const RenderSettings settings = settings_for(40, 30, 4);
         const Frame placed = render(scene_with(large(true), material), settings, planes).frame;
@@ -96,7 +96,7 @@ TEST(Placed, RenderLikeCopies) {
 }
 
 // A pool that is rebuilt while others hold arena ranges, and one that outlives the document.
-TEST(Placed, LiveAsLongAsTheyAreUsed) {
+TEST(ArenaGeometry, LivesAsLongAsItIsUsed) {
     const RenderSettings settings = settings_for(40, 30, 4);
     Renderer renderer({.threads = 1, .planes = planes});
     Frame first, again;
@@ -114,7 +114,7 @@ TEST(Placed, LiveAsLongAsTheyAreUsed) {
     EXPECT_EQ(first.rgba, again.rgba);
 }
 
-TEST(Placed, AreNotCopied) {
+TEST(ArenaGeometry, IsNotCopied) {
     const auto own_bytes = [](const Scene& scene) {
         GeometryPool pool;
         pool.build(list_objects(scene), {.tangents = true, .colors = true, .uv_sets = {0, 3}}, {0, 0, 0});

@@ -54,7 +54,7 @@ TEST(RenderOrigin, StaysWhileAnObjectIsDragged) {
     EXPECT_LE(changes, 1);
 }
 
-TEST(Extent, IsThatOfTheTransformedVertices) {
+TEST(SceneOrigin, IsThatOfTheTransformedVertices) {
     Scene scene;
     place(scene, cube(false), lambert(1), at({100, 0, 0}, 2));
     place(scene, cube(false), lambert(1), at({110, 5, 0}));
@@ -69,7 +69,7 @@ TEST(Extent, IsThatOfTheTransformedVertices) {
 }
 
 // Tables relative to the origin are the same if the scene is moved by a multiple of the origin's steps: so is the image.
-TEST(Extent, AFarSceneRendersLikeTheNearOneBitForBit) {
+TEST(SceneOrigin, AFarSceneRendersLikeTheNearOneBitForBit) {
     const auto still_life = [](const Vec3& away) {
         Scene scene;
         place(scene, floor_quad(2), lambert(0.7f), at(away));

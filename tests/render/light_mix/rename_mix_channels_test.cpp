@@ -25,7 +25,7 @@ struct Carried : Studio {
 };
 using Names = std::vector<std::string>;
 
-TEST(CarriedMix, FollowsARenamedLight) {
+TEST(RenameMixChannels, FollowsARenamedLight) {
     Carried s;
     s.channel("Bulb").intensity = 3;
     s.channel("Sun");
@@ -39,7 +39,7 @@ TEST(CarriedMix, FollowsARenamedLight) {
         << "edits of the mix itself are unchanged";
 }
 
-TEST(CarriedMix, FollowsARenamedObjectAndMaterial) {
+TEST(RenameMixChannels, FollowsARenamedObjectAndMaterial) {
     Carried s;
     Node ball = *s.scene.nodes.find(s.ball);
     s.scene.mix.grouping = LightMix::Grouping::by_object;
@@ -58,7 +58,7 @@ TEST(CarriedMix, FollowsARenamedObjectAndMaterial) {
     EXPECT_EQ(m.after(SetMaterial{id, material}), Names{"Glow"});
 }
 
-TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
+TEST(RenameMixChannels, RemovesChannelsOfLightsWhoseNameIsReused) {
     Carried s;
     const Id<Node> second = place_light(s.scene, lamp("Bulb", Light::Kind::point, 1, {1, 1, 1}), at({1, 1, 1}));
     s.channel("Bulb").intensity = 2;
@@ -71,7 +71,7 @@ TEST(CarriedMix, RemovesChannelsOfLightsWhoseNameIsReused) {
         << "its name is unused: undo, or showing the light again, restores it";
 }
 
-TEST(CarriedMix, KeepsChannelsOfRemainingMembersOfAManualGroup) {
+TEST(RenameMixChannels, KeepsChannelsOfRemainingMembersOfAManualGroup) {
     Carried s;
     s.scene.mix.grouping = LightMix::Grouping::by_hand;
     for (const Id<Node> node : {s.bulb, s.panel}) s.change(node, [](Light& l) { l.group = "Warm"; });
@@ -82,7 +82,7 @@ TEST(CarriedMix, KeepsChannelsOfRemainingMembersOfAManualGroup) {
 }
 
 // Beyond sixteen groups only those with a channel have their own plane: the renamed group keeps its plane.
-TEST(CarriedMix, KnowsGroupsThatShareAPlane) {
+TEST(RenameMixChannels, KnowsGroupsThatShareAPlane) {
     Carried s;
     for (int i = 0; i < 20; ++i) place_light(s.scene, lamp("Extra", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));
     const Id<Node> late = place_light(s.scene, lamp("Late", Light::Kind::point, 1, {1, 1, 1}), at({0, 1, 0}));

@@ -204,7 +204,7 @@ TEST(DisabledAreaLight, IsInNoRaysWay) {
 // Beside many copies, lamps are traced in a BVH of their own. The image is that of one BVH: here of the same scene without the last
 // copies, which are too small to be hit. Without the flag, which has points in common with the screen: which one is hit there depends
 // on the BVH.
-TEST(LampBvh, ShowsTheSameImage) {
+TEST(AreaLightBvh, ShowsTheSameImage) {
     const Project crowded = stage(true);
     const auto named = [&](const char* name) {
         return std::ranges::find_if(crowded.scene.nodes, [&](const auto& n) { return n.value.name == name; })->id;

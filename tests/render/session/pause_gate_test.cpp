@@ -88,7 +88,7 @@ auto aside_after(int64_t samples) {
     };
 }
 
-TEST(StandingAside, ContinuesFromTheSameSamples) {
+TEST(YieldToUi, ContinuesFromTheSameSamples) {
     Project project = project_of(32, 24, 64);
     RecordingSession session(2, aside_after(4));
     session->submit(1, project.scene, project.render);
@@ -108,7 +108,7 @@ TEST(StandingAside, ContinuesFromTheSameSamples) {
     EXPECT_NE(session.events()[before].status.state, State::yielding) << "nothing is announced before it resumes";
 }
 
-TEST(StandingAside, DoesNotDelayAnotherImage) {
+TEST(YieldToUi, DoesNotDelayAnotherImage) {
     Project project = project_of(32, 24, 8);
     RecordingSession session(2, aside_after(1));
     session->submit(1, project.scene, project.render);
@@ -119,7 +119,7 @@ TEST(StandingAside, DoesNotDelayAnotherImage) {
     EXPECT_TRUE(other.frame) << "its first image is rendered nevertheless";
 }
 
-TEST(StandingAside, StillSavesFilms) {
+TEST(YieldToUi, StillSavesFilms) {
     const Project project = project_of(32, 24, 64);
     RecordingSession session(2, aside_after(4));
     session->submit(1, project.scene, project.render);
@@ -134,7 +134,7 @@ TEST(StandingAside, StillSavesFilms) {
     EXPECT_TRUE(kept->film) << kept->why_none;
 }
 
-TEST(StandingAside, DoesNotCountAsRendering) {
+TEST(YieldToUi, DoesNotCountAsRendering) {
     const Project project = project_of(480, 360, 12);
     RecordingSession session;
     const auto begin = Clock::now();
@@ -151,7 +151,7 @@ TEST(StandingAside, DoesNotCountAsRendering) {
     EXPECT_LT(done.frame->seconds, whole.count() - yielding.count());
 }
 
-TEST(StandingAside, CanBeDestroyed) {
+TEST(YieldToUi, CanBeDestroyed) {
     const Project project = project_of(480, 360, 1 << 20);
     RecordingSession session;
     session->submit(1, project.scene, project.render);

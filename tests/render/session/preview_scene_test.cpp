@@ -20,7 +20,7 @@ RenderSettings small() {
     return settings;
 }
 
-TEST(Untextured, IsReplacedByTheTexturedScene) {
+TEST(PreviewScene, IsReplacedByTheTexturedScene) {
     const test::Sample sample = test::sample_project();
     const Scene& whole = sample.project.scene;
     Renderer renderer(test::all_planes());

@@ -63,7 +63,7 @@ TEST(Selection, ShiftClickSelectsARange) {
     EXPECT_EQ(ui.selection(scene), (Ids{{1}}));
 }
 
-TEST(EditTogether, CopiesFieldsExceptNameAndKeepsBalance) {
+TEST(MultiEdit, CopiesFieldsExceptNameAndKeepsBalance) {
     Light before, after, other;
     other.name = "Fill";
     before.intensity = 10;
@@ -83,7 +83,7 @@ TEST(EditTogether, CopiesFieldsExceptNameAndKeepsBalance) {
     EXPECT_EQ(apply_same_edit(other, before, before), other) << "fields that are not edited stay";
 }
 
-TEST(EditTogether, CopiesSizesOnlyBetweenLightsOfOneType) {
+TEST(MultiEdit, CopiesSizesOnlyBetweenLightsOfOneType) {
     Light before, after, sun;
     sun.kind = Light::Kind::sun;
     after.radius = 0.5f;
@@ -93,7 +93,7 @@ TEST(EditTogether, CopiesSizesOnlyBetweenLightsOfOneType) {
     EXPECT_EQ(edited.kelvin, 3000);
 }
 
-TEST(EditTogether, IntensityFromZeroIsCopied) {
+TEST(MultiEdit, IntensityFromZeroIsCopied) {
     Light before, after, other;
     before.intensity = 0;
     after.intensity = 5;
@@ -120,13 +120,13 @@ struct Rig {
     }
 };
 
-TEST(EditTogether, FindsLightsOfSubtreesOnce) {
+TEST(MultiEdit, FindsLightsOfSubtreesOnce) {
     const Rig r;
     EXPECT_EQ(lights_of(r.scene, Ids{r.stand, r.key, r.fill, {99}}), (std::vector<Id<Light>>{{1}, {2}}));
     EXPECT_EQ(subtree_roots(r.scene, Ids{r.key, r.stand, r.fill}), (Ids{r.stand, r.fill}));
 }
 
-TEST(EditTogether, IsOneStepWithOneEditPerChangedLight) {
+TEST(MultiEdit, IsOneStepWithOneEditPerChangedLight) {
     const Rig r;
     const std::vector<Id<Light>> lights{{1}, {2}};
     const auto mute = [](Light& light) { light.enabled = light.name == "Key"; };
@@ -141,7 +141,7 @@ TEST(EditTogether, IsOneStepWithOneEditPerChangedLight) {
     EXPECT_EQ(label_for("Mute", r.scene, std::vector<Id<Light>>{{1}}), "Mute light Key");
 }
 
-TEST(EditTogether, ListsDifferingFields) {
+TEST(MultiEdit, ListsDifferingFields) {
     Rig r;
     const std::vector<Id<Light>> lights{{1}, {2}};
     EXPECT_TRUE(differing_fields(r.scene, lights).empty());
@@ -163,7 +163,7 @@ TEST(LightGroups, NewNamesAreUnique) {
     EXPECT_EQ(unused_group_name(r.scene), "Group 2");
 }
 
-TEST(TurnedSurroundings, FollowTheMouse) {
+TEST(EnvironmentRotation, FollowsTheMouse) {
     Lens lens;
     lens.yfov_radians = 1.2f;
     // One per cent of the picture in its centre, as an angle.

@@ -6,7 +6,7 @@
 namespace blush::TEST_FILE {
 namespace {
 
-TEST(Remembered, PanelsRoundTrip) {
+TEST(UiPersistence, PanelsRoundTrip) {
     UiState ui;
     ui.tab = InspectorTab::render;
     ui.denoise = {DenoiseView::Show::blend, 0.25f};
@@ -39,7 +39,7 @@ TEST(Remembered, PanelsRoundTrip) {
     EXPECT_EQ(fewer.bounces.gains, again.bounces.gains) << "a removed gain is not kept";
 }
 
-TEST(Remembered, InvalidValuesAreIgnored) {
+TEST(UiPersistence, InvalidValuesAreIgnored) {
     WindowSettings settings;
     settings.panels = {{"tab", 99},           {"denoise", -1},    {"denoise.blend", 7}, {"bounces.bounce", 1e30},
                        {"bounces.gain.0", 5}, {"denoise", 1e300}, {"unknown", 3}};
@@ -57,7 +57,7 @@ struct TwoNodes {
     Id<Material> material = scene.materials.add(Material());
 };
 
-TEST(Remembered, SceneStateRoundTrips) {
+TEST(UiPersistence, SceneStateRoundTrips) {
     const TwoNodes s;
     UiState ui;
     ui.zoom = {3, 0.25, 0.75};
@@ -90,7 +90,7 @@ TEST(Remembered, SceneStateRoundTrips) {
     EXPECT_EQ(ui.zoom, PictureZoom());
 }
 
-TEST(Remembered, OnlyTheLastScenesAreKept) {
+TEST(UiPersistence, OnlyTheLastScenesAreKept) {
     WindowSettings settings;
     for (int i = 0; i < 30; ++i) save_scene_ui(UiState(), std::to_string(i % 15) + ".gltf", settings);
     EXPECT_EQ(settings.scenes.size(), remembered_files);

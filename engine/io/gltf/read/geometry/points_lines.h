@@ -1,4 +1,4 @@
-// Internal to io/gltf: converts points and lines to small spheres and tubes, so that they can be ray traced.
+// Internal to io/gltf: tessellates points and lines as small spheres and tubes, so that they can be ray traced.
 #pragma once
 
 #include "scene/scene.h"
