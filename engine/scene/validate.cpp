@@ -165,7 +165,7 @@ Result<void> validate(const Environment& environment) {
     if (environment.kind == Environment::Kind::image) {
         const Image* image = environment.image.get();
         check.is(image && image->width > 0 && image->height > 0 && image->channels >= 3 && !image->floats.empty(),
-                 "image must be there, in float, with 3 or 4 channels");
+                 "image must have float pixels with 3 or 4 channels");
     }
     const Sky& sky = environment.sky;
     check.between("turbidity", sky.turbidity, 1.7, 10);

@@ -27,21 +27,47 @@ TEST(References, ShippedScenesMatch) {
         EXPECT_TRUE(looks_like(render(shipped_scene(name), reference_settings(name)), read_reference(reference_file(name)))) << name;
 }
 
-// The test is sensitive: light cut after four bounces, walls 5 % less green.
-TEST(References, SmallErrorsAreDetected) {
-    const Scene cornell = shipped_scene("cornell");
-    const Reference reference = read_reference(reference_file("cornell"));
-    const RenderSettings settings = reference_settings("cornell");
-    RenderSettings shorter = settings;
-    shorter.max_bounces = 4;
-    EXPECT_FALSE(looks_like(render(cornell, shorter), reference)) << "bounces";
-    Scene changed = cornell;
-    for (const auto& [id, material] : Table<Material>(cornell.materials)) {
+Scene with_less_green(const Scene& scene, float factor) {
+    Scene changed = scene;
+    for (const auto& [id, material] : scene.materials) {
         Material m = material;
-        m.base_color.y *= 0.95f;
+        m.base_color.y *= factor;
         changed.materials.set(id, m);
     }
-    EXPECT_FALSE(looks_like(render(changed, settings), reference)) << "colour";
+    return changed;
+}
+
+Scene with_dimmer_light(const Scene& scene, float factor) {
+    Scene changed = scene;
+    for (const auto& [id, material] : scene.materials) {
+        Material m = material;
+        m.emissive_strength *= factor;
+        changed.materials.set(id, m);
+    }
+    for (const auto& [id, light] : scene.lights) {
+        Light l = light;
+        l.intensity *= factor;
+        changed.lights.set(id, l);
+    }
+    changed.environment.intensity *= factor;
+    return changed;
+}
+
+// The test is sensitive in each scene: to light that is 3 % dimmer, and to surfaces that are 5 % less green.
+TEST(References, SmallErrorsAreDetectedInEachScene) {
+    for (const std::string& name : shipped_scene_names()) {
+        const Scene scene = shipped_scene(name);
+        const Reference reference = read_reference(reference_file(name));
+        const RenderSettings settings = reference_settings(name);
+        EXPECT_FALSE(looks_like(render(with_dimmer_light(scene, 0.97f), settings), reference)) << name << ": light";
+        EXPECT_FALSE(looks_like(render(with_less_green(scene, 0.95f), settings), reference)) << name << ": colour";
+    }
+}
+
+TEST(References, CutPathsAreDetected) {
+    RenderSettings shorter = reference_settings("cornell");
+    shorter.max_bounces = 4;
+    EXPECT_FALSE(looks_like(render(shipped_scene("cornell"), shorter), read_reference(reference_file("cornell"))));
 }
 
 } // namespace

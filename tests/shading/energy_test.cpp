@@ -10,8 +10,8 @@ namespace {
 
 constexpr int64_t samples = 20'000;
 
-// What a viewer in a furnace sees of the surface, over what the furnace shines with on the viewer's side: in equilibrium radiance is n^2 in
-// a medium of index n, which undoes the scale of refraction.
+// Radiance of a surface in a furnace, divided by the furnace's radiance on the viewer's side. In equilibrium the radiance in a medium of
+// index n is n^2, which cancels the scale of refraction.
 Moments furnace(const Params& p, const Viewer& v, uint32_t seed, const EnergyTable* energy = nullptr) {
     Random random(seed);
     const Vec3 wo = v.wo();
@@ -86,7 +86,7 @@ TEST(Furnace, CoatsNeverGain) {
                     << "roughness " << roughness << ", " << describe(m, v);
 }
 
-// Energy compensation of the coat: its multiple scattering is restored, and the base reflects the rest.
+// Energy compensation of the coat: adds the light of multiple scattering in the coat; the base reflects the rest.
 TEST(Energy, CompensatedCoatsOnWhiteLoseNothing) {
     const EnergyTable table = make_energy_table();
     for (const float roughness : roughnesses)
@@ -101,9 +101,10 @@ TEST(Energy, CompensatedCoatsOnWhiteLoseNothing) {
         }
 }
 
-// Too little refraction to resolve: what passes goes straight on and sees no facets, so that the surface decides how much it is.
+// The refraction is too weak to resolve: transmitted light goes straight on, independent of facets. The Fresnel term of the smooth surface
+// then determines its share.
 TEST(Furnace, AlmostAirReflectsLikeItsSurfaceAndPassesTheRest) {
-    const float ior = 1.0001f; // from inside, 89.9 degrees are beyond the critical angle, but not so for every facet
+    const float ior = 1.0001f; // from inside, 89.9 degrees are beyond the critical angle, but not for all facets
     for (const float roughness : {0.05f, 0.2f})
         for (const Viewer& v : viewers(glass(roughness, ior))) {
             const double cos = std::abs(v.wo().z), reflected = v.inside ? reference::fresnel(ior, 1, cos) : reference::fresnel(1, ior, cos);
@@ -122,8 +123,8 @@ double integrate_reference(const Params& p, const Vec3& wo) {
     return sum;
 }
 
-// Appendix B's fresnel_mix weighs the base by the facet between light and viewer, so that a white plastic may even gain
-// at grazing angles. What counts is that we return that integral.
+// fresnel_mix of Appendix B weights the base by the half vector of light and viewer, so that a white plastic may gain energy at grazing
+// angles. The test requires the integral of that formula.
 TEST(Furnace, LayeredMaterialsReturnTheIntegralOfTheirFormula) {
     Random random(4);
     for (const float roughness : {0.2f, 0.5f, 1.f})
@@ -174,7 +175,7 @@ TEST(Energy, CompensatedWhiteMetalLosesNothing) {
     for (const float roughness : roughnesses)
         for (const Viewer& v : viewers(metal(roughness))) {
             const Vec3 wo = v.wo();
-            // Exactly what remains is known: the table's error.
+            // The known remaining error is that of the table.
             const double scale = 1 / directional_albedo(table, roughness, wo.z);
             const double expected = reference::mirror_albedo(reference::sqr(roughness), wo.z) * scale;
             EXPECT_NEAR(expected, 1, 2 * EnergyTable::relative_error);
@@ -196,7 +197,7 @@ TEST(Energy, CompensationLeavesTheSmoothAndTheDiffuseAlone) {
     }
 }
 
-// The denoiser's guide need not be exact, but it is what it says where the answer is simple.
+// The albedo for the denoiser is approximate, but exact in simple cases.
 TEST(Albedo, IsTheColorOfSimpleMaterials) {
     const Vec3 wo = Viewer{30, false}.wo(), color{0.8f, 0.5f, 0.1f};
     const auto of = [&](const Params& p) { return albedo<all_features>(make_bsdf<all_features>(p, wo, nullptr), wo); };

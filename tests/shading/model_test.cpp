@@ -8,9 +8,9 @@ using namespace statistics;
 
 namespace {
 
-// f_cos may be off by a few dozen operations and by what rounding two directions moves the facet between them, times the slope
-// of the distribution (at most 4 / alpha, relatively) and of the cosines it makes with both; near the critical angle light gets
-// through like the root of (eta cos)^2.
+// Relative bound of the rounding error of f_cos: that of some dozen operations, and that of the facet normal, which moves when the two
+// directions are rounded. The latter is multiplied by the relative slope of the facet distribution (at most 4 / alpha) and of the cosines
+// between facet and directions. Near the critical angle, the transmitted light varies like the root of (eta cos)^2.
 double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
     const float min_roughness =
         p.layers.clearcoat > 0 ? std::min(p.roughness, std::max(p.layers.clearcoat_roughness, smooth_roughness)) : p.roughness;
@@ -21,7 +21,7 @@ double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
     const Vec3d sum = a + (!through ? b : p.thin ? Vec3d{b.x, b.y, -b.z} : b * eta);
     const double span = length(sum), cosine = std::min(std::abs(dot(a, sum)), std::abs(dot(b, sum))) / span;
     const double refraction = through && !p.thin ? 1 / reference::sqr(eta * cosine) : 0;
-    // Of light that goes through diffusely, by the facet that would mirror it.
+    // For diffuse transmission: the cosine at the facet that would reflect wo to the mirrored wi.
     const double mirrored = 0.5 + 0.5 * dot(a, Vec3d{b.x, b.y, through ? -b.z : b.z});
     const double crossing = p.layers.diffuse_transmission > 0 && !p.thin ? 1 / std::max(std::abs(eta * eta - 1 + mirrored), 1e-6) : 0;
     return float_rounding * (1 + (4 / alpha + 4 / cosine) / span + refraction + crossing);
@@ -60,7 +60,7 @@ TEST(Model, IsTheSpecification) {
             Vec3 wo = random.direction();
             if (!is_solid(m.params)) wo.z = std::abs(wo.z);
             const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
-            // Half of the light from where the lobes are.
+            // Half of the directions are sampled from the lobes.
             const BsdfSample<float> s = sample_next<all_features>(b, wo, random);
             const Vec3 wi = i % 2 && s.valid ? s.wi : random.direction();
             if (std::abs(wo.z) < 0.01f || std::abs(wi.z) < 0.01f) continue;
@@ -90,7 +90,7 @@ TEST(Model, ReflectionAndThinTransmissionAreReciprocal) {
             if (wo.z < 0.01f || std::abs(wi.z) < 0.01f ||
                 (wi.z < 0 && m.params.transmission == 0 && m.params.layers.diffuse_transmission == 0))
                 continue;
-            // A thin wall looks the same from both sides: the viewer's is up.
+            // A thin wall is symmetric: the viewer's side is up.
             const float side = wi.z < 0 ? -1.f : 1.f;
             const Vec3 back_wo{wi.x, wi.y, side * wi.z}, back_wi{wo.x, wo.y, side * wo.z};
             const float there = eval<all_features>(make_bsdf<all_features>(m.params, wo, nullptr), wo, wi).f_cos.y / std::abs(wi.z);
@@ -131,7 +131,7 @@ TEST(Model, FresnelMatchesDoublePrecisionAndKnownAngles) {
                 const float c = float(i) / 1000;
                 const Interface<float> interface = interface_seen<float>(inside, ior);
                 const double exact = inside ? reference::fresnel(ior, 1, c) : reference::fresnel(1, ior, c);
-                // Near the critical angle the curve is vertical: it is compared at the cosines a rounding away.
+                // Near the critical angle the curve is vertical: compares at the neighbouring cosines.
                 const double low = inside ? reference::fresnel(ior, 1, c * (1 + 1e-6)) : exact,
                              high = inside ? reference::fresnel(ior, 1, c * (1 - 1e-6)) : exact;
                 const float actual = dielectric_reflectance(interface, c);
@@ -221,7 +221,7 @@ TEST(Model, IndexZeroReflectsEverything) {
     }
 }
 
-// A lobe just wide enough to be one, and its limit: the same reflectance, hardly another direction.
+// The narrowest lobe that is not a delta has the same reflectance as the delta lobe, and nearly the same direction.
 TEST(Model, NarrowLobesContinueIntoDeltas) {
     Random random(8);
     for (const Params& p : {metal(0.0101f, {0.9f, 0.7f, 0.4f}), thin_glass(0.0101f), glass(0.0101f, 1.5f)}) {

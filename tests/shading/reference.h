@@ -1,5 +1,5 @@
 // Reference implementation of the material model in double precision, as published: glTF 2.0 Appendix B,
-// KHR_materials_specular and _transmission, and Walter et al. 2007 for refraction. What the lanes compute is compared with it.
+// KHR_materials_specular and _transmission, and Walter et al. 2007 for refraction. Tests compare the lanes with it.
 #pragma once
 
 #include "tests/shading/materials.h"
@@ -35,8 +35,8 @@ inline double fresnel(double n1, double n2, double cos1) {
 inline Vec3d mix(const Vec3d& a, const Vec3d& b, double t) { return a * (1 - t) + b * t; }
 inline Vec3d schlick(const Vec3d& f0, double cos) { return f0 + (Vec3d{1, 1, 1} - f0) * std::pow(1 - std::abs(cos), 5); }
 
-// KHR_materials_iridescence's listing, but that the sign of interference is each colour channel's own: the listing gives the red base's
-// to X, the green's to Y. `cos`: in air.
+// The listing of KHR_materials_iridescence, with one difference: each colour channel has its own sign of interference. The listing uses
+// the sign of the red base for X and that of the green base for Y. `cos`: in air.
 inline Vec3d film_reflectance(double film_ior, double thickness_nm, double cos, const Vec3d& f0) {
     const double cos2 = std::sqrt(1 - (1 - sqr(cos)) / sqr(film_ior));
     const double r0 = sqr((film_ior - 1) / (film_ior + 1)), r12 = r0 + (1 - r0) * std::pow(1 - cos, 5), t121 = 1 - r12;
@@ -63,7 +63,7 @@ inline Vec3d film_reflectance(double film_ior, double thickness_nm, double cos, 
     return {channel(f0.x, {3.2404542, -1.5371385, -0.4985314}), channel(f0.y, {-0.9692660, 1.8760108, 0.0415560}),
             channel(f0.z, {0.0556434, -0.2040259, 1.0572252})};
 }
-// What reflects as `bare` without a film; `cos` on the viewer's side, refracted to air.
+// Reflectance with an iridescent film of a surface that reflects `bare` without it. `cos`: on the viewer's side; refracted to air inside.
 inline Vec3d film_over(const Vec3d& bare, const Params& p, double cos, bool inside, const Vec3d& f0, double weight) {
     if (p.layers.iridescence == 0) return bare;
     const double sin_air = inside ? p.ior * std::sqrt(1 - sqr(cos)) : std::sqrt(1 - sqr(cos));
@@ -139,8 +139,8 @@ struct Frame {
     Vec3d to_world(const Vec3d& v) const { return s * v.x + t * v.y + n * v.z; }
 };
 
-// KHR_materials_clearcoat: mix(base, specular_brdf(coat's alpha and normal), clearcoat * Schlick(0.04, N_coat V)). A back of the coat is
-// its front seen from within. `base`: f |wi.z| of what is below.
+// KHR_materials_clearcoat: mix(base, specular_brdf(coat's alpha and normal), clearcoat * Schlick(0.04, N_coat V)). The back of the
+// coat reflects like its front. `base`: f |wi.z| of the layers below.
 inline Vec3d coat_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) {
     if (p.layers.clearcoat == 0) return base;
     Vec3d n = to_double(p.layers.clearcoat_normal);
@@ -172,7 +172,7 @@ inline double charlie_f_cos(double alpha, const Vec3d& wo, const Vec3d& wi) {
     const double d = (2 + 1 / alpha) * std::pow(std::hypot(h.x, h.y), 1 / alpha) / (2 * pi);
     return d / ((1 + charlie_lambda(alpha, wo.z) + charlie_lambda(alpha, wi.z)) * 4 * wo.z);
 }
-// Directional albedo of that, by the midpoint rule.
+// Directional albedo of the sheen, by the midpoint rule.
 inline double charlie_albedo(double alpha, double cos) {
     constexpr int rows = 300, columns = 90;
     double sum = 0;
@@ -183,7 +183,7 @@ inline double charlie_albedo(double alpha, double cos) {
         }
     return sum * 2 * pi / (rows * columns);
 }
-// f |wi.z| with the sheen; albedos are the table's, which has a test of its own.
+// f |wi.z| with sheen. Albedos are from the table, which has its own test.
 inline Vec3d sheen_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) {
     const Vec3d color = to_double(p.layers.sheen_color);
     if (largest(color) == 0) return base;
@@ -195,7 +195,7 @@ inline Vec3d sheen_over(const Vec3d& base, const Params& p, Vec3d wo, Vec3d wi) 
     return wi.z > 0 ? below + color * (charlie_f_cos(sqr(roughness), wo, wi) / std::max(larger, 1.0)) : below;
 }
 
-// f |wi.z| of the whole.
+// f |wi.z| of all layers.
 inline Vec3d f_cos(const Params& p, const Vec3d& wo, const Vec3d& wi) {
     const Vec3d o = normalize(wo), i = normalize(wi);
     return coat_over(sheen_over(f_cos_of_base(p, o, i), p, o, i), p, o, i);
@@ -226,8 +226,8 @@ inline statistics::Chart facet_normals_chart(double alpha) {
             [=](const Vec3d& h) { return std::optional(facet_coordinates(alpha, h)); }};
 }
 
-// wi as a function of the facet between it and wo: by reflection, or `through` the surface: by refraction into the index ratio
-// eta, or through a thin wall (eta 0). On these charts every lobe is as wide as its distribution of facets: easy to integrate.
+// Maps microfacet normals to wi, for a fixed wo: by reflection; with `through` by refraction with the index ratio eta, or through a thin
+// wall (eta 0). On such a chart a lobe is as wide as its distribution of normals, so that it is easy to integrate.
 inline statistics::Chart facet_chart(double alpha, const Vec3& wo_surface, bool through, double eta) {
     const double side = wo_surface.z < 0 ? -1 : 1;
     const Vec3d wo = normalize(Vec3d{wo_surface.x, wo_surface.y, wo_surface.z * side});
@@ -266,7 +266,7 @@ inline std::vector<statistics::Chart> facet_charts(const Params& p, const Vec3& 
     const double alpha = sqr(std::max(min_roughness, smooth_roughness)), ior = std::max(p.ior, 1.f);
     std::vector<statistics::Chart> charts = {facet_chart(alpha, wo, false, 0)};
     if (p.layers.diffuse_transmission > 0) {
-        // Whatever goes through, diffusely or not, is on this chart; refraction has none of its own that covers all directions.
+        // One chart for all transmitted directions, diffuse and refracted: a refraction chart would not cover all of them.
         charts.push_back(facet_chart(alpha, wo, true, 0));
         return charts;
     }
@@ -274,7 +274,7 @@ inline std::vector<statistics::Chart> facet_charts(const Params& p, const Vec3& 
     return charts;
 }
 
-// Directional albedo of a rough mirror that loses nothing but what is masked: the integral over facets.
+// Directional albedo of a rough mirror that loses only masked light: the integral over facet normals.
 inline double mirror_albedo(double alpha, double cos) {
     const Vec3d wo{std::sqrt(1 - sqr(cos)), 0, cos};
     constexpr int rows = 600, columns = 120;

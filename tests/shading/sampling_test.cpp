@@ -8,8 +8,8 @@ using namespace statistics;
 
 namespace {
 
-// From some viewers a lobe is narrower than the spacing of single-precision directions: alpha one way, alpha cos the other. Then only
-// its facets can be looked at: see FacetsFollowTheVisibleNormals.
+// From some view directions a lobe (alpha wide in one direction, alpha cos in the other) is narrower than the spacing of single-precision
+// directions. Then only its facet normals can be tested: see FacetsFollowTheVisibleNormals.
 bool is_resolved(const Params& p, const Vec3& wo) {
     const auto resolved = [&](float roughness) {
         return roughness < smooth_roughness || roughness * roughness * std::abs(wo.z) > 16 * 0x1p-24f;
@@ -44,8 +44,8 @@ TEST(Sampling, DirectionsFollowThePdf) {
         }
 }
 
-// The facet normals themselves, near z and therefore never rounded away, in every case that is rough: Heitz 2014, "Understanding the
-// Masking-Shadowing Function in Microfacet-Based BRDFs", the distribution of visible normals, in double precision.
+// Facet normals of all rough cases against the distribution of visible normals in double precision (Heitz 2014, "Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs"). They are near z, so that rounding does not matter.
 TEST(Sampling, FacetsFollowTheVisibleNormals) {
     const std::vector<Viewer> all = viewers(metal(0));
     const auto tests = int64_t(roughnesses.size() * all.size());
@@ -112,8 +112,8 @@ TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
             SCOPED_TRACE(describe(m, v));
             const Vec3 wo = v.wo();
             const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
-            // No part of the base, and neither base nor layer, has less than a tenth of the samples it deserves; refraction may
-            // concentrate radiance.
+            // Each lobe and each layer gets at least a tenth of the samples in proportion to its light. Refraction may concentrate
+            // radiance.
             const float parts = (b.coat.probability > 0 ? 10.f : 1.f) * (b.sheen.probability > 0 ? 10.f : 1.f);
             const float limit = 10 * parts * max(1.f, b.radiance_scale) * (1 + 1e-5f);
             for (int i = 0; i < 2000; ++i) {
@@ -136,7 +136,7 @@ TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
         }
 }
 
-// Wherever light comes from, exactly grazing and exactly backward included.
+// For all light directions, including exactly grazing and exactly backward ones.
 TEST(Sampling, EvalIsFiniteAndNotNegative) {
     Random random(3);
     for (const Material& m : all_materials())

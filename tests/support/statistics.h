@@ -20,7 +20,7 @@
 
 namespace blush::statistics {
 
-// Chance that a test of correct code fails. Seeds are fixed, so it was taken once, when the test was written.
+// Probability that a test of correct code fails. Seeds are fixed, so it applied once, when the test was written.
 constexpr double significance = 0.01;
 
 // Significance of each of `count` independent tests that together have `overall` (Sidak 1967).
@@ -52,7 +52,7 @@ template <class Fn> Moments estimate(int64_t count, Fn draw) {
 // Probability of a standard normal beyond +-z.
 inline double normal_p(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
 
-// What a chain of some dozen single-precision operations may be off, relatively: the floor where the variance is 0.
+// Relative rounding error allowed for some dozen single-precision operations: the tolerance where the variance is 0.
 constexpr double float_rounding = 64 * 0x1p-24;
 
 inline testing::AssertionResult z_verdict(const char* claim, double difference, double error, double scale, double alpha) {
@@ -63,26 +63,26 @@ inline testing::AssertionResult z_verdict(const char* claim, double difference, 
                                        << alpha;
 }
 
-// Is the mean `expected`?
+// Tests that the mean is `expected`.
 inline testing::AssertionResult z_test(const Moments& m, double expected, double alpha = significance) {
     if (!std::isfinite(m.mean)) return testing::AssertionFailure() << "mean is " << m.mean;
     return z_verdict("mean differs", m.mean - expected, m.error(), expected, alpha)
            << " (mean of " << m.count << " is " << m.mean << ", expected " << expected << ")";
 }
-// Is the mean of numbers that lie in [low, high] `expected`? Where rare ones carry the difference, the sample's own variance would be
-// too small; the largest possible (Bhatia and Davis 2000) is not.
+// The same for numbers that lie in [low, high]. Uses the largest possible variance (Bhatia and Davis 2000): if the sample misses rare
+// large values, its own variance is too small.
 inline testing::AssertionResult z_test_in_range(const Moments& m, double low, double high, double expected, double alpha = significance) {
     const double variance = std::max(0.0, expected - low) * std::max(0.0, high - expected);
     return z_verdict("mean differs", m.mean - expected, std::sqrt(variance / double(m.count)), expected, alpha)
            << " (mean of " << m.count << " is " << m.mean << ", expected " << expected << ")";
 }
-// Is the mean no more than `limit`?
+// Tests that the mean is at most `limit`.
 inline testing::AssertionResult z_test_at_most(const Moments& m, double limit, double alpha = significance) {
     if (!std::isfinite(m.mean)) return testing::AssertionFailure() << "mean is " << m.mean;
     return z_verdict("mean exceeds", std::max(0.0, m.mean - limit), m.error(), limit, 2 * alpha)
            << " (mean of " << m.count << " is " << m.mean << ", limit " << limit << ")";
 }
-// Have two independent samples the same mean?
+// Tests that two independent samples have the same mean.
 inline testing::AssertionResult same_mean(const Moments& a, const Moments& b, double alpha = significance) {
     if (!std::isfinite(a.mean) || !std::isfinite(b.mean)) return testing::AssertionFailure() << "means are " << a.mean << ", " << b.mean;
     return z_verdict("means differ", a.mean - b.mean, std::hypot(a.error(), b.error()), std::max(std::abs(a.mean), std::abs(b.mean)), alpha)
@@ -113,8 +113,8 @@ inline double gamma_q(double a, double x) {
     return front * h;
 }
 
-// Do counts follow their expectations, which have the same sum? Cells that expect fewer than 5 are pooled, with the next larger
-// cells if need be.
+// Chi-squared test of counts against their expected values, which have the same sum. Cells with an expected value below 5 are pooled; if
+// the pool is still below 5, the next larger cells join it.
 inline testing::AssertionResult chi_squared_test(std::span<const int64_t> counts, std::span<const double> expected,
                                                  double alpha = significance) {
     struct Cell {
@@ -155,7 +155,7 @@ inline testing::AssertionResult chi_squared_test(std::span<const int64_t> counts
 
 // ---- directions
 
-// A part of the sphere laid over the unit square, so that a grid can be as fine as the lobe it measures is narrow.
+// Maps the unit square to a part of the sphere, so that a grid can be fine where the measured lobe is narrow.
 struct Chart {
     struct Point {
         Vec3d direction;
@@ -178,15 +178,15 @@ inline Chart sphere_chart() {
 }
 
 struct DirectionTest {
-    std::vector<Chart> charts = {sphere_chart()}; // disjoint, and cover all that is drawn
+    std::vector<Chart> charts = {sphere_chart()}; // disjoint; together they cover all sampled directions
     int rows = 16, columns = 16;                  // cells of each chart
     int points = 16;                              // of the midpoint rule, along each side of a cell
     int64_t samples = 100'000;
     double alpha = significance;
 };
 
-// Integrals of density(direction) over the cells of a chart: the midpoint rule along both sides of a cell, but where the chart's
-// edge cuts a step in s, the step ends there.
+// Integrals of density(direction) over the cells of a chart, by the midpoint rule along both sides of a cell. Steps in s end at the
+// chart's edge.
 template <class Density> std::vector<double> integrate_cells(const Chart& chart, int rows, int columns, int points, Density density) {
     std::vector<double> cells(size_t(rows * columns));
     const int steps = rows * points, lines = columns * points;
@@ -211,7 +211,8 @@ template <class Density> std::vector<double> integrate_cells(const Chart& chart,
     return cells;
 }
 
-// Does draw() -> optional<Vec3> follow the density pdf(Vec3) per solid angle? What pdf lacks to 1 must be drawn as none.
+// Tests that the directions of draw() -> optional<Vec3> follow the density pdf(Vec3) per solid angle. If the pdf integrates to less than 1,
+// draw() must return none with the remaining probability.
 template <class Draw, class Pdf> testing::AssertionResult directions_follow(const DirectionTest& test, Draw draw, Pdf pdf) {
     const auto density = [&](const Vec3d& w) { return double(pdf(Vec3{float(w.x), float(w.y), float(w.z)})); };
     std::vector<double> expected;
@@ -219,7 +220,7 @@ template <class Draw, class Pdf> testing::AssertionResult directions_follow(cons
         for (const double p : integrate_cells(chart, test.rows, test.columns, test.points, density))
             expected.push_back(p * double(test.samples));
     const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
-    // The last cell is "none". A density beyond 1 by more than the sampling error of the whole shows up as a negative count.
+    // The last cell counts "none". A pdf that integrates to more than 1, beyond the sampling error, gives it a negative expected count.
     expected.push_back(double(test.samples) - total);
     if (expected.back() < 0 && -expected.back() <= std::sqrt(double(test.samples))) expected.back() = 0;
     if (expected.back() < 0) return testing::AssertionFailure() << "the density integrates to " << total / double(test.samples);

@@ -209,8 +209,8 @@ template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int cou
     }
 }
 
-// The scenes to trace. Area lights may have one of their own (null: they have not), whose geometries follow each other in the order of
-// their numbers in the top level: meshes from `first_mesh`, then spheres from `first_sphere`.
+// The Embree scenes to trace. `area_lights`: separate scene of the area lights; null: they are in the top level. Geometry k of it has the
+// id that it would have in the top level: meshes count from `first_mesh`, then spheres from `first_sphere`.
 struct TracedScenes {
     RTCScene top, area_lights;
     uint32_t area_light_meshes, first_mesh, first_sphere;
@@ -397,7 +397,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
         if (i < s.first_area_light) top.add_triangles(s.device, scene.flat[i], tables);
         s.alpha |= scene.flat[i].alpha;
     }
-    // Numbers do not depend on where the area lights are: stochastic opacity is a function of the instance's.
+    // Geometry ids are the same whether the area lights have their own scene or not: stochastic opacity is a function of the instance's id.
     top.next_id = s.first_instance = uint32_t(scene.flat.size());
     uint32_t instance_count = 0;
     for (const AccelInstances& instances : scene.instances) {

@@ -95,8 +95,8 @@ void add_trees(FeatureReport& feature_report, size_t instanced_meshes_triangles,
     if (instanced_meshes_triangles == 0) return;
     constexpr int64_t bytes_per_triangle = 27;
     if (compact_triangles == 0)
-        return feature_report.push_back({"geometry", "corners in the tree", true, "memory suffices for them, and tracing is faster"});
-    feature_report.push_back({"geometry", "corners in the tree", false,
+        return feature_report.push_back({"geometry", "BVH stores vertices", true, "memory suffices, and tracing is faster"});
+    feature_report.push_back({"geometry", "BVH stores vertices", false,
                               fmt::format("memory is short for {} triangles: tracing takes 1.24 times as long", compact_triangles),
                               bytes_per_triangle * int64_t(compact_triangles)});
 }

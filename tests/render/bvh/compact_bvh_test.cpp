@@ -90,7 +90,7 @@ TEST(CompactBvh, IsNotUsedIfMemorySuffices) {
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(scene, settings_for(8, 8, 1));
     const auto feature_report = renderer.feature_report();
-    const auto line = std::ranges::find(*feature_report, "corners in the tree", &FeatureUse::name);
+    const auto line = std::ranges::find(*feature_report, "BVH stores vertices", &FeatureUse::name);
     ASSERT_NE(line, feature_report->end());
     EXPECT_TRUE(line->used) << line->why;
 }

@@ -36,13 +36,15 @@ TEST(Layout, RowBelowThePictureReducesItsHeight) {
 
 TEST(Layout, ViewportKeepsAMinimumWidth) {
     const Layout l = lay_out(480, 400, 22, 27, 15, {45, 45});
-    EXPECT_GE(l.viewport.width, 15 * 16 - 2);
+    EXPECT_EQ(l.viewport.width, 15 * 16);
+    EXPECT_EQ(l.outliner.width, 120) << "the side panels share the rest";
+    EXPECT_EQ(l.inspector.width, 120);
 }
 
 TEST(Layout, TinyWindowHasAViewport) {
     const Layout l = lay_out(10, 10, 22, 27, 15, {});
-    EXPECT_GE(l.viewport.width, 1);
-    EXPECT_GE(l.viewport.height, 1);
+    EXPECT_EQ(l.viewport.width, 10) << "the side panels give way";
+    EXPECT_EQ(l.viewport.height, 1) << "menu and status bar do not fit either";
 }
 
 constexpr ViewportInsets everything{true, true, {}, 150, 22};
@@ -123,8 +125,12 @@ TEST(DockRegions, AcceptDropsOnTabsAndAtEdges) {
 TEST(Splitters, FollowTheMouseWithinLimits) {
     EXPECT_FLOAT_EQ(drag_outliner({}, 300, 15).outliner, 20);
     EXPECT_FLOAT_EQ(drag_inspector({}, 980, 1280, 15).inspector, 20);
-    EXPECT_GT(drag_outliner({}, -50, 15).outliner, 0);
-    EXPECT_LT(drag_inspector({}, 0, 1e6f, 15).inspector, 100);
+    for (const float font : {13.f, 15.f, 30.f}) {
+        EXPECT_FLOAT_EQ(drag_outliner({}, -50, font).outliner, 10);
+        EXPECT_FLOAT_EQ(drag_outliner({}, 1e6f, font).outliner, 45);
+        EXPECT_FLOAT_EQ(drag_inspector({}, 1e6f, 1280, font).inspector, 10);
+        EXPECT_FLOAT_EQ(drag_inspector({}, 0, 1e6f, font).inspector, 45);
+    }
 }
 
 TEST(FitAspect, IsTheLargestCentredRectangle) {

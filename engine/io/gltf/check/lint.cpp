@@ -39,10 +39,10 @@ void report_light(const GltfContext& context, const Light& light, const std::str
     }
     const double lumens = luminous_flux(light);
     if (lumens > max_plausible_lumens)
-        context.warn(
-            fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela: were they watts?",
-                        light.intensity, lumens, lumens / 1600),
-            where);
+        context.warn(fmt::format("{:.6g} candela are {:.6g} lumens, as of {:.0f} bulbs of 100 W; glTF's unit is the candela; check that "
+                                 "the value is not in watts",
+                                 light.intensity, lumens, lumens / 1600),
+                     where);
 }
 
 // The scale of a camera has no effect, but an axis of length 0 has no direction.
@@ -77,7 +77,9 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
     const double across = 2 * bounds.radius();
     if (!bounds.empty && across > max_scene_size)
         context.warn(
-            fmt::format("the scene is {:.4g} km across; glTF's unit is the metre: were they millimetres or centimetres?", across / 1000),
+            fmt::format(
+                "the scene is {:.4g} km across; glTF's unit is the metre; check that it was not modelled in millimetres or centimetres",
+                across / 1000),
             "scene");
     if (!bounds.empty && across > 0 && across < min_scene_size)
         context.warn(fmt::format("the scene is {:.4g} mm across; glTF's unit is the metre", across * 1000), "scene");

@@ -108,8 +108,10 @@ Result<std::string_view> glb_json_text(std::span<const uint8_t> bytes) {
         return Error{"", "truncated: shorter than a GLB header", fmt::format("byte {}", bytes.size())};
     if (word_at(bytes, 4) != 2) return Error{"", fmt::format("GLB version {} is not supported, only 2", word_at(bytes, 4)), "byte 4"};
     const uint64_t total = word_at(bytes, 8);
-    if (total > bytes.size()) return Error{"", fmt::format("truncated: {} bytes announced, {} there", total, bytes.size()), "byte 8"};
-    if (total < header + chunk_header) return Error{"", fmt::format("{} bytes announced, fewer than a GLB header has", total), "byte 8"};
+    if (total > bytes.size())
+        return Error{"", fmt::format("truncated: the header declares {} bytes, the file has {}", total, bytes.size()), "byte 8"};
+    if (total < header + chunk_header)
+        return Error{"", fmt::format("the header declares {} bytes, fewer than a GLB header has", total), "byte 8"};
     for (uint64_t offset = header; offset < total;) {
         if (offset + chunk_header > total) return Error{"", "truncated chunk header", fmt::format("byte {}", offset)};
         const uint64_t end = offset + chunk_header + word_at(bytes, offset);
