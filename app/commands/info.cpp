@@ -153,8 +153,8 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
                    s->full_mpaths_per_s, s->ratio);
     for (const FeatureUse& use : info.features)
         if (const auto& p = use.pilot)
-            fmt::print("{:<22} {}: MSE x {:.3f}, relMSE x {:.3f}, of a typical tile x {:.3f}, work x {:.3f}\n", "pilot", use.name, p->mse,
-                       p->relmse, p->typical, p->work);
+            fmt::print("{:<22} {} in groups of {}: MSE x {:.3f}, relMSE x {:.3f}, of a typical tile x {:.3f}, work x {:.3f}\n", "pilot",
+                       use.name, p->group_size, p->mse, p->relmse, p->typical, p->work);
     print_uses("with", info.features, true);
     print_uses("left out", info.features, false);
     fmt::print("{:<22} {:.1f} MB, {:.2f} s to load, {:.2f} s to set up\n", "cost", info.memory_mb, loaded.report.seconds,

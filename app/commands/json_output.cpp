@@ -28,6 +28,7 @@ OrderedJson kernel_json(const std::string& kernel, const FeatureReport& feature_
                               {"relmse", p->relmse},
                               {"typical", p->typical},
                               {"work", p->work},
+                              {"group_size", p->group_size},
                               {"cost", p->cost()}});
         if (!use.used)
             left_out.push_back({{"part", use.part}, {"name", use.name}, {"why", use.why}, {"saves_mib", mib}, {"saves_ms", ms}});

@@ -83,10 +83,11 @@ void draw_reuse(Fields& f, RenderSettings& r) {
     static constexpr const char* names[] = {"Auto", "Off", "4 pixels", "8 pixels", "16 pixels"};
     static constexpr int sizes[] = {reuse_auto, 1, 4, 8, 16};
     int choice = int(std::find(std::begin(sizes), std::end(sizes), r.reuse) - std::begin(sizes));
-    if (f.choice("Path reuse", choice, names,
-                 "Groups of this many nearby pixels share the light that their paths find at a second diffuse surface. It is unbiased; "
-                 "indirect light gets less noisy for more shadow rays. Auto: 8 pixels where a pilot measures that this pays; the section "
-                 "Specialisation below says what it found."))
+    if (f.choice(
+            "Path reuse", choice, names,
+            "Groups of this many nearby pixels share the light that their paths find at a second diffuse surface. It is unbiased; "
+            "indirect light gets less noisy for more shadow rays. Auto: 8 or 16 pixels where a pilot measures that this pays; the section "
+            "Specialisation below says what it found."))
         r.reuse = sizes[choice];
 }
 

@@ -3,6 +3,7 @@
 #include "io/image/lossless_channels.h"
 #include "io/project/json_fields.h"
 #include "render/diagnostics/health_recorder.h"
+#include "render/film/reuse_choice.h"
 #include "render/light_mix/light_groups.h"
 
 #include <algorithm>
@@ -130,7 +131,7 @@ std::string film_json(const FilmState& film) {
               {"health", film_health_json(film.health)}};
     for (const FilmState::MixedGroup& g : film.mix) json["mix"].push_back({g.name, g.gain.x, g.gain.y, g.gain.z});
     if (!film.shares[0].empty()) json["shares"] = {film.shares[0], film.shares[1]};
-    if (const auto& p = film.reuse_pilot) json["reuse_pilot"] = {p->mse, p->relmse, p->typical, p->work};
+    if (const auto& p = film.reuse_pilot) json["reuse_pilot"] = {p->mse, p->relmse, p->typical, p->work, p->group_size};
     return json_text(json);
 }
 
@@ -161,7 +162,9 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     }
     if (const Json& pilot = member(*json, "reuse_pilot"); !pilot.is_null()) {
         PilotFigures& p = film.reuse_pilot.emplace();
-        if (!read_numbers(pilot, p.mse, p.relmse, p.typical, p.work) || !(std::min({p.mse, p.relmse, p.typical, p.work}) > 0))
+        if (!read_numbers(pilot, p.mse, p.relmse, p.typical, p.work, p.group_size) ||
+            !(std::min({p.mse, p.relmse, p.typical, p.work}) > 0) ||
+            std::ranges::find(automatic_group_sizes, p.group_size) == automatic_group_sizes.end())
             return bad("reuse_pilot");
     }
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");

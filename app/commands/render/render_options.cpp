@@ -179,10 +179,11 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--adaptive", o.settings.adaptive, parse_switch,
                "Adaptive sampling: more samples in noisy pixels, N per pixel on average [on]", &o.adaptive_given)
         ->type_name("on|off");
-    add_parsed(app, "--reuse", o.settings.reuse, parse_reuse,
-               "Path reuse: number of pixels that share light at a second diffuse surface; auto: 8 where a pilot measures that this pays "
-               "[auto]",
-               &o.reuse_given)
+    add_parsed(
+        app, "--reuse", o.settings.reuse, parse_reuse,
+        "Path reuse: number of pixels that share light at a second diffuse surface; auto: 8 or 16 where a pilot measures that this pays "
+        "[auto]",
+        &o.reuse_given)
         ->type_name("auto|off|4|8|16");
     add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
                "Clamp samples of indirect light, or of all light, to X nits: biased, the summary prints the removed light [off]")

@@ -14,6 +14,7 @@ struct PilotFigures {
     double mse = 1, relmse = 1; // variance of the samples, over the pixels of all tiles
     double typical = 1;         // the same of a typical tile: geometric mean over the tiles
     double work = 1;            // rays traced, weighted by their usual time
+    int group_size = 0;         // path reuse: pixels in a group
     // Work for the same error. Rare samples such as fireflies hold most of a sum over tiles, and whether a short pilot meets them is
     // chance: so half of the weight is on the typical tile, the other half on both sums.
     double cost() const { return std::sqrt(typical * std::sqrt(mse * relmse)) * work; }

@@ -166,7 +166,7 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.rays = state.rays;
     frame.path_counts = state.path_counts;
     frame.health.truncated = state.truncated;
-    frame.error = estimate_error(film, reuse_group_size(settings), workers);
+    frame.error = estimate_error(film, reuse_group_size(settings, state.reuse_pilot), workers);
     frame.error_samples = frame.samples;
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();

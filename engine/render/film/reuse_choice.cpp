@@ -7,8 +7,6 @@
 namespace blush {
 namespace {
 
-constexpr int automatic_group_size = 8; // the pilot does not compare sizes yet: 16 was better in the Cornell box
-
 // Why path reuse cannot gain anything; null if it may.
 const char* why_useless(const RenderSettings& settings, const RenderScene& scene) {
     if (!scene.may_be_lambertian()) return "no surface is Lambertian: there is no light to share";
@@ -19,9 +17,12 @@ const char* why_useless(const RenderSettings& settings, const RenderScene& scene
 
 } // namespace
 
-int reuse_group_size(const RenderSettings& settings) { return settings.reuse == reuse_auto ? automatic_group_size : settings.reuse; }
+int reuse_group_size(const RenderSettings& settings, const std::optional<PilotFigures>& pilot) {
+    if (settings.reuse != reuse_auto) return settings.reuse;
+    return pilot ? pilot->group_size : automatic_group_sizes[0];
+}
 
-ReuseChoice::ReuseChoice(const RenderSettings& settings, const RenderScene& scene) : first_(reuse_group_size(settings)) {
+ReuseChoice::ReuseChoice(const RenderSettings& settings, const RenderScene& scene) : first_(reuse_group_size(settings, {})) {
     if (settings.reuse != reuse_auto) return;
     useless_ = why_useless(settings, scene);
     automatic_ = !useless_;
@@ -32,10 +33,16 @@ void ReuseChoice::decide(const PilotFigures& pilot) {
     if (automatic_) pilot_ = pilot;
 }
 
+int ReuseChoice::group_size(int64_t sample) const {
+    if (sample == 0 || !pilot_) return first_;
+    return pays() ? pilot_->group_size : 1;
+}
+
 FeatureUse ReuseChoice::report() const {
     FeatureUse use{.part = "kernel", .name = "path reuse", .used = first_ > 1 && pays(), .why = {}};
     if (pilot_)
-        use.why = fmt::format("pilot: variance x work is {:.2f} of that without", pilot_->cost());
+        use.why =
+            fmt::format("pilot: variance x work of groups of {} pixels is {:.2f} of that without", pilot_->group_size, pilot_->cost());
     else if (useless_)
         use.why = useless_;
     else if (first_ > 1)

@@ -5,6 +5,7 @@
 #include "scene/render_settings.h"
 #include "scene/reuse_setting.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -12,13 +13,16 @@ namespace blush {
 
 class RenderScene;
 
-// Pixels in a group of path reuse, where this is used at all.
-int reuse_group_size(const RenderSettings& settings);
+// Pixels in a group that `automatic` path reuse chooses from. The first is that of samples that no pilot has decided over.
+constexpr std::array<int, 2> automatic_group_sizes{8, 16};
+
+// Pixels in a group of path reuse, where this is used at all; `pilot`: ReuseChoice::pilot().
+int reuse_group_size(const RenderSettings& settings, const std::optional<PilotFigures>& pilot);
 
 // With RenderSettings::reuse automatic, the first sample of each pixel and all samples of coarse images are rendered with path reuse,
-// so that no edit waits for a pilot. The pilot (reuse_pilot.h) decides over the other samples. It depends on the scene and the
-// settings alone, not on the image's samples: so every sample is unbiased, and a sample is the same in whatever range it is rendered.
-// Without any surface that path reuse needs, there is neither.
+// so that no edit waits for a pilot. The pilot (reuse_pilot.h) decides over the other samples, also how many pixels share. It depends on
+// the scene and the settings alone, not on the image's samples: so every sample is unbiased, and a sample is the same in whatever range it
+// is rendered. Without any surface that path reuse needs, there is neither.
 class ReuseChoice {
 public:
     ReuseChoice() = default;
@@ -32,8 +36,8 @@ public:
     const std::optional<PilotFigures>& pilot() const { return pilot_; }
 
     // Pixels in a group for a sample of this index, at full resolution; 1: no path reuse. Requires a decision except for index 0.
-    int group_size(int64_t sample) const { return sample == 0 || pays() ? first_ : 1; }
-    // The same for the first sample; no other sample has more.
+    int group_size(int64_t sample) const;
+    // The same for the first sample; without path reuse there, no other sample has any.
     int first_group_size() const { return first_; }
 
     FeatureUse report() const;

@@ -1,9 +1,11 @@
 #include "render/film/reuse_pilot.h"
 
 #include "render/bvh/small_scene.h"
+#include "render/film/reuse_choice.h"
 #include "render/integrator/reuse_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -18,9 +20,10 @@ constexpr int min_tiles = 8, max_tiles = 64; // of the pilot, if the film has as
 constexpr int film_tiles_per_tile = 16;      // between these, one for so many tiles of the film
 constexpr double dark_squared = 0.01;        // as in relmse
 
-// Usual time of parts of the work, relative to a camera or bounce ray with its shading, of 0.1 us.
-constexpr double shadow_ray_cost = 0.3, connection_cost = 0.5;
-constexpr double sharing_cost = 0.25;     // per camera path
+// Usual time of parts of the work, relative to a camera or bounce ray with its shading, of 0.1 us: from the profiles by stage of the
+// shipped scenes (stage_times.h).
+constexpr double shadow_ray_cost = 0.3, connection_cost = 0.25;
+constexpr double sharing_cost = 0.08;     // per camera path
 constexpr double small_scene_cost = 0.65; // factor on paths where no BVH is needed (small_scene.h)
 
 // Tiles spread over the film by the R2 sequence (Roberts 2018), whatever its aspect ratio.
@@ -79,8 +82,11 @@ struct Sums {
         return *this;
     }
 };
-struct Both {
-    Sums apart, shared;
+using SumsOfSizes = std::array<Sums, automatic_group_sizes.size()>;
+// Of one tile, or of all.
+struct Comparison {
+    Sums apart;
+    SumsOfSizes shared;
 };
 
 Sums sums_of(const Variant& v, const Vec3d& mean) {
@@ -94,50 +100,67 @@ Sums sums_of(const Variant& v, const Vec3d& mean) {
     return sums;
 }
 
-Both compare(const Variant& apart, const Variant& shared, double ray_cost) {
+Comparison compare(const Variant& apart, const std::vector<Variant>& shared, double ray_cost) {
     Vec3d sum{0, 0, 0};
-    for (const Variant* v : {&apart, &shared})
-        for (const Vec3d& mean : v->means) sum = sum + mean;
-    const Vec3d mean = sum * (0.5 / double(apart.means.size()));
-    Both both{sums_of(apart, mean), sums_of(shared, mean)};
-    both.apart.work = ray_cost * (double(apart.rays) + shadow_ray_cost * double(apart.shadow_rays));
-    both.shared.work =
-        both.apart.work + connection_cost * double(shared.shadow_rays - apart.shadow_rays) + sharing_cost * double(shared.camera_rays);
-    return both;
+    const auto add_means = [&](const Variant& v) {
+        for (const Vec3d& mean : v.means) sum = sum + mean;
+    };
+    add_means(apart);
+    for (const Variant& v : shared) add_means(v);
+    const Vec3d mean = sum * (1 / double((1 + shared.size()) * apart.means.size()));
+    Comparison c;
+    c.apart = sums_of(apart, mean);
+    c.apart.work = ray_cost * (double(apart.rays) + shadow_ray_cost * double(apart.shadow_rays));
+    for (size_t k = 0; k < shared.size(); ++k) {
+        c.shared[k] = sums_of(shared[k], mean);
+        c.shared[k].work = c.apart.work + connection_cost * double(shared[k].shadow_rays - apart.shadow_rays) +
+                           sharing_cost * double(shared[k].camera_rays);
+    }
+    return c;
+}
+
+// Of the k-th size of groups.
+PilotFigures figures_of(const std::vector<Comparison>& tiles, size_t k) {
+    // 1 for a tile without error.
+    const auto ratio = [](double with, double without) { return with > 0 && without > 0 ? with / without : 1.0; };
+    Sums apart, shared;
+    double log_ratios = 0;
+    int noisy_tiles = 0;
+    for (const Comparison& tile : tiles) {
+        apart += tile.apart;
+        shared += tile.shared[k];
+        log_ratios += std::log(ratio(tile.shared[k].relmse, tile.apart.relmse));
+        noisy_tiles += tile.apart.relmse > 0 && tile.shared[k].relmse > 0;
+    }
+    return {ratio(shared.mse, apart.mse), ratio(shared.relmse, apart.relmse), std::exp(log_ratios / std::max(noisy_tiles, 1)),
+            ratio(shared.work, apart.work), automatic_group_sizes[k]};
 }
 
 } // namespace
 
-std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, int group_size, const Workers& workers,
+std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     KernelContext apart = context;
     apart.seed = pilot_seed;
     apart.settings.reuse = {};
-    KernelContext shared = apart;
-    shared.settings.reuse = reuse_groups(group_size, tile_side, tile_side);
+    std::vector<KernelContext> sizes(automatic_group_sizes.size(), apart);
+    for (size_t k = 0; k < sizes.size(); ++k) sizes[k].settings.reuse = reuse_groups(automatic_group_sizes[k], tile_side, tile_side);
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
     const double ray_cost = context.accel->small_scene() ? small_scene_cost : 1;
-    std::vector<Both> measured(tiles.size());
+    std::vector<Comparison> measured(tiles.size());
     const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
         const TileJob& tile = tiles[size_t(i)];
         const Variant without = render_variant(apart, kernel, tile, *scratch[worker]);
-        measured[size_t(i)] = compare(without, render_variant(shared, kernel, tile, *scratch[worker]), ray_cost);
+        std::vector<Variant> with;
+        for (const KernelContext& size : sizes) with.push_back(render_variant(size, kernel, tile, *scratch[worker]));
+        measured[size_t(i)] = compare(without, with, ray_cost);
     });
     if (!all) return std::nullopt;
-    // 1 for a tile without error.
-    const auto ratio = [](double with, double without) { return with > 0 && without > 0 ? with / without : 1.0; };
-    Both sum;
-    double log_ratios = 0;
-    int noisy_tiles = 0;
-    for (const Both& tile : measured) {
-        sum.apart += tile.apart;
-        sum.shared += tile.shared;
-        log_ratios += std::log(ratio(tile.shared.relmse, tile.apart.relmse));
-        noisy_tiles += tile.apart.relmse > 0 && tile.shared.relmse > 0;
-    }
-    return PilotFigures{ratio(sum.shared.mse, sum.apart.mse), ratio(sum.shared.relmse, sum.apart.relmse),
-                        std::exp(log_ratios / std::max(noisy_tiles, 1)), ratio(sum.shared.work, sum.apart.work)};
+    PilotFigures best = figures_of(measured, 0);
+    for (size_t k = 1; k < automatic_group_sizes.size(); ++k)
+        if (const PilotFigures figures = figures_of(measured, k); figures.cost() < best.cost()) best = figures;
+    return best;
 }
 
 } // namespace blush

@@ -12,9 +12,10 @@
 
 namespace blush {
 
-// Renders some tiles, spread over the film, twice with the same samples: without path reuse, and with groups of `group_size` pixels.
-// Both renders trace the same paths; only the connections differ. Their seed differs from that of the image, so the result does not
-// depend on the image's samples. It is the same for any number of threads and any instruction set.
+// Renders some tiles, spread over the film, several times with the same samples: without path reuse, and with groups of each size
+// (automatic_group_sizes). These renders trace the same paths; only the connections differ. Their seed differs from that of the image,
+// so the result does not depend on the image's samples. It is the same for any number of threads and any instruction set. Returns the
+// figures of the size with the lowest cost.
 //
 // The error of a pixel is half the difference of its two half buffers, which are independent randomisations of the sampler: its square
 // estimates the variance of stratified samples. MSE is the sum of these squares; relMSE divides them by the squared mean of the tile.
@@ -23,7 +24,7 @@ namespace blush {
 //
 // `context` as for the film at full resolution, its seed and groups aside. `scratch`: one per worker, allocated if needed. Empty if
 // `wanted` returned false.
-std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, int group_size, const Workers& workers,
+std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush

@@ -148,7 +148,7 @@ TEST(ReusePilot, IsTheSameWithEveryKernel) {
     compiled.update(expand_area_lights(scene), settings, full_plan(), workers);
     const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
     std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-    const auto measure = [&](const Kernel& kernel) { return *measure_path_reuse(context, kernel, 8, workers, scratch, {}); };
+    const auto measure = [&](const Kernel& kernel) { return *measure_path_reuse(context, kernel, workers, scratch, {}); };
     const PilotFigures expected = measure(kernels_of("scalar").back());
     for (const std::string_view isa : runnable_isas()) {
         const auto kernels = kernels_of(isa);
@@ -181,7 +181,7 @@ Frame rendered(const Scene& scene, const RenderSettings& settings, std::initiali
 }
 
 TEST(ReusePilot, DecidesOverAllSamplesButTheFirst) {
-    for (const auto& [scene, size] : {std::pair{window_room(), 8}, std::pair{open_field(), 1}}) {
+    for (const auto& [scene, size] : {std::pair{window_room(), 16}, std::pair{open_field(), 1}}) {
         RenderSettings settings = automatic(80, 48, 8), chosen = settings, shared = settings;
         chosen.reuse = size;
         shared.reuse = 8;
@@ -225,7 +225,7 @@ TEST(ReusePilot, IsSavedWithTheFilm) {
     continued.render(3, 5);
     EXPECT_TRUE(same_picture(continued.resolve(), whole.resolve()));
     // What another version of the program decided stays decided.
-    state.reuse_pilot = PilotFigures{0.5, 0.5, 0.5, 1.2};
+    state.reuse_pilot = PilotFigures{0.5, 0.5, 0.5, 1.2, 16};
     Renderer other({.threads = 2});
     other.update(scene, settings);
     ASSERT_TRUE(other.load_film(state));
