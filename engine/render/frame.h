@@ -5,6 +5,7 @@
 #include "render/compile/feature_report.h"
 #include "render/diagnostics/health.h"
 #include "render/film/path_counts.h"
+#include "render/film/stage_times.h"
 
 #include <cstdint>
 #include <memory>
@@ -87,6 +88,7 @@ struct Frame {
     Health health;
     ClampReport clamp;
     RayCounts rays;
+    StageSeconds stages;                                 // core seconds of rendering
     double seconds = 0;                                  // of rendering at this revision
     double error_seconds = 0;                            // total time of error estimates in this session
     double first_image_seconds = 0;                      // from submit to the first published frame of this revision

@@ -16,6 +16,7 @@
 #include "render/integrator/irradiance.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
+#include "render/kernels/stage_timer.h"
 #include "render/tile_shape.h"
 
 #include <algorithm>
@@ -65,6 +66,7 @@ struct Renderer::State {
     std::shared_ptr<const FeatureReport> feature_report; // null: must be computed
     int64_t samples = 0;
     RayCounts rays;
+    StageSeconds stages; // since the film was cleared
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;
 
@@ -110,6 +112,7 @@ struct Renderer::State {
         feature_report.reset();
         samples = 0;
         rays = {};
+        stages = {};
         path_counts.clear();
         truncated = 0;
     }
@@ -254,7 +257,7 @@ std::vector<Vec3> Renderer::resolve_error() {
 
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
-    const int group_size = reuse_group_size(state_->settings);
+    const int group_size = reuse_group_size(state_->settings, state_->reuse.pilot());
     return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : ReuseCovariance{};
 }
 
@@ -273,7 +276,10 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(most_samples, run.count - done));
         kernel->render(context, job, tile);
-        film.add(job, tile, settings.seed, diagnose, shadows_of(context, job, worker));
+        const CatcherColumns* shadows = shadows_of(context, job, worker);
+        StageTimer timer(tile.stages);
+        film.add(job, tile, settings.seed, diagnose, shadows);
+        timer.end(Stage::film);
     }
     return true;
 }
@@ -313,6 +319,8 @@ PixelRect Renderer::State::rendered_pixels() const {
 bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
     const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
     const PixelRect wanted_pixels = rendered_pixels();
+    const Clock::time_point begun = Clock::now();
+    const int64_t first_tick = ticks();
     std::atomic<bool> cut_short{false};
     const bool all_begun = workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
         const int x = int(tile % across) * shape.width, y = int(tile / across) * shape.height;
@@ -326,8 +334,11 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
     });
     for (const auto& used : catching)
         if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
+    const double seconds_per_tick = seconds_since(begun) / double(std::max<int64_t>(ticks() - first_tick, 1));
     for (const auto& used : scratch) {
         if (!used) continue;
+        const StageTicks spent = std::exchange(used->stages, {});
+        for (size_t k = 0; k < stages.of.size(); ++k) stages.of[k] += double(spent.of[k]) * seconds_per_tick;
         rays.bounce += std::exchange(used->bounce_rays, 0);
         rays.shadow += std::exchange(used->shadow_rays, 0);
         rays.camera += std::exchange(used->camera_rays, 0);
@@ -366,7 +377,7 @@ bool Renderer::decide(const std::function<bool()>& wanted) {
     if (!s.reuse.needs_pilot()) return true;
     KernelContext context{&s.scene.tables(), &s.scene.accel(), kernel_settings(s.settings, s.settings.width, s.settings.height)};
     context.settings.filter_textures = s.options.filter_textures;
-    const auto measured = measure_path_reuse(context, *s.kernel, s.reuse.first_group_size(), s.workers, s.replays, wanted);
+    const auto measured = measure_path_reuse(context, *s.kernel, s.workers, s.replays, wanted);
     if (!measured) return false;
     s.reuse.decide(*measured);
     s.feature_report.reset();
@@ -410,6 +421,7 @@ void Renderer::resolve(Frame& frame) {
     frame.whole = s.settings.region == PictureRegion{};
     frame.samples = s.samples;
     frame.rays = s.rays;
+    frame.stages = s.stages;
     frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
@@ -428,7 +440,7 @@ Frame Renderer::resolve() {
 ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
-    ErrorEstimate error = blush::estimate_error(s.film, reuse_group_size(s.settings), s.workers);
+    ErrorEstimate error = blush::estimate_error(s.film, blush::reuse_group_size(s.settings, s.reuse.pilot()), s.workers);
     // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light().empty()) {
         error.known = error.known && error.high > 0;

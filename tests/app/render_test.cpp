@@ -291,6 +291,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
     EXPECT_EQ(json["width"], 24);
     EXPECT_EQ(json["spp"], 4);
     EXPECT_EQ(json["rays"]["camera"], 24 * 16 * 4);
+    EXPECT_EQ(test::keys_of(json["stages"]), (std::vector<std::string>{"film", "generate", "light", "reuse", "shade", "shadow", "trace"}));
     EXPECT_EQ(json["partial"], false);
     EXPECT_EQ(json["output"], folder / "out.exr");
     EXPECT_GE(json["path_length_mean"], 1.0);

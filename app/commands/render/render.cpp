@@ -167,6 +167,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
     json["seconds"] = r.seconds;
     json["seconds_setup"] = rendered.info.seconds_setup;
     json["rays"] = {{"camera", rays.camera}, {"bounce", rays.bounce}, {"shadow", rays.shadow}};
+    for (size_t k = 0; k < stage_names.size(); ++k) json["stages"][std::string(stage_names[k])] = r.frame.stages.of[k];
     json["mrays_per_s"] = double(rays.total()) / seconds * 1e-6;
     json["mpaths_per_s"] = paths / seconds * 1e-6;
     json["path_length_mean"] = paths > 0 ? double(rays.camera + rays.bounce) / paths : 0.0;

@@ -54,9 +54,9 @@ template <class F> Step<F> ended_step(const Vec<F>& beta) {
 }
 
 // Shades one vertex of the path: `hit` is the hit of path.ray. Lanes outside `active` are ignored. The stages are in hit_stages.h
-// and scatter_stages.h.
+// and scatter_stages.h. `light_timer` measures the sampling of a light; null: not measured.
 template <Features S, class F> Step<F> scatter(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path,
-                                               const Hit<F>& hit, int bounce, const Mask<F>& active) {
+                                               const Hit<F>& hit, int bounce, const Mask<F>& active, SampledTimer* light_timer = nullptr) {
     Step<F> out = ended_step<F>(path.beta);
     const Mask<F> met = active && as_mask(hit.geometry >= 0);
     hit_background<S, F>(scene, settings, path, bounce, active && !met, out);
@@ -86,7 +86,8 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
     const ScatterSetup<F> setup = scatter_setup<S, F>(scene, material, p);
-    if (scene.lights.count > 0) sample_direct<S, F>(scene, settings.strategy, p, setup, sampler.pair(dimension + light_dimension), out);
+    if (scene.lights.count > 0)
+        sample_direct<S, F>(scene, settings.strategy, p, setup, sampler.pair(dimension + light_dimension), light_timer, out);
 
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/integrator/hit_stages.h"
+#include "render/kernels/stage_timer.h"
 #include "shading/caustic_guiding.h"
 
 namespace blush::inline BLUSH_ISA {
@@ -58,13 +59,16 @@ scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const 
 }
 
 // Next event estimation with a point of one light: beta f |cos| L_e w_light / p_light, and the shadow ray that has to arrive
-// (Veach 1997, 9.2). Not where all lobes are delta lobes. `random`: pair of light_dimension.
+// (Veach 1997, 9.2). Not where all lobes are delta lobes. `random`: pair of light_dimension. `timer`: of the sampling of the light, may be
+// null.
 template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(const SceneTables& scene, Strategy strategy,
                                                                                 const ShadingPoint<F>& p, const ScatterSetup<F>& setup,
-                                                                                const Pair<F>& random, Step<F>& out) {
+                                                                                const Pair<F>& random, SampledTimer* timer, Step<F>& out) {
     const Mask<F> wants_light = p.scatters && !is_delta_only<F>(p.bsdf);
     if (!any(wants_light)) return;
+    if (timer) timer->begin();
     const LightPoint<F> light = sample_light_point<S, F>(scene, random, setup.receiver, wants_light);
+    if (timer) timer->end();
     const Vec<F> rough_to = select<F>(light.infinite, light.position, light.position - p.surface.position);
     const Vec<F> from = offset_origin(p.surface.position, p.surface.error, p.shading.ng, dot(rough_to, p.shading.ng) > F(0.f));
     // Ends on this side of the light's plane, so that the light does not shadow itself.

@@ -8,6 +8,7 @@
 #include "render/integrator/path_reuse.h"
 #include "render/integrator/thin_transmission.h"
 #include "render/kernels/kernel.h"
+#include "render/kernels/stage_timer.h"
 
 #include <algorithm>
 #include <utility>
@@ -112,17 +113,20 @@ void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& 
         if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);
 }
 
-template <Features S, class F>
-[[gnu::flatten]] void shade_paths(const KernelContext& context, TileScratch& scratch, const PathQueue& now, PathQueue& next, int bounce) {
+// Returns the ticks spent on sampling lights, which are a part of its own.
+template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const KernelContext& context, TileScratch& scratch,
+                                                                    const PathQueue& now, PathQueue& next, int bounce) {
     next.size = 0;
     scratch.shadows.size = 0;
     const bool alpha = context.accel->has_alpha();
+    SampledTimer light_timer;
     for (int k = 0; k < now.size; k += width<F>) {
         Path<F> path = load_path<S, F>(now, k);
         if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
         if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
-        const Step<F> step = scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active);
+        const Step<F> step =
+            scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active, light_timer.next());
         Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
         if constexpr (S.has(Feature::transmission))
             if (context.scene->panes) straight = as_mask(load<Int<F>>(scratch.panes->passed + k) == 0);
@@ -154,6 +158,7 @@ template <Features S, class F>
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
+    return light_timer.estimate();
 }
 
 // Adds the light of all unoccluded shadow rays.
@@ -175,7 +180,9 @@ inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
 }
 
 template <Features S, class F> void render_tile(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    StageTimer timer(scratch.stages);
     generate_paths<S, F>(context, job, scratch);
+    timer.end(Stage::generate);
     if (scratch.bounces) scratch.bounces->recorded = 0;
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
@@ -189,7 +196,9 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         }
         (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
         trace_paths<S, F>(context, scratch, *now, *next, bounce);
-        shade_paths<S, F>(context, scratch, *now, *next, bounce);
+        timer.end(Stage::trace);
+        const int64_t light_ticks = shade_paths<S, F>(context, scratch, *now, *next, bounce);
+        scratch.stages[Stage::light] += light_ticks;
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
         if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
         scratch.shadow_rays += scratch.shadows.size;
@@ -197,10 +206,14 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
             stash_unshared_radiance(*scratch.reuse, scratch, job.paths());
             unshared_is_stashed = true;
         }
+        timer.end(Stage::shade, light_ticks);
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
+        timer.end(Stage::shadow);
         std::swap(now, next);
     }
-    if (unshared_is_stashed) reuse_paths<F>(context, job, scratch);
+    if (!unshared_is_stashed) return;
+    reuse_paths<F>(context, job, scratch);
+    timer.end(Stage::reuse);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -5,6 +5,7 @@
 #include "render/bvh/accel.h"
 #include "render/compile/scene_tables.h"
 #include "render/film/path_counts.h"
+#include "render/film/stage_times.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
@@ -94,6 +95,7 @@ struct TileScratch {
     std::unique_ptr<RouletteColumns> roulette; // null: not needed
     std::unique_ptr<PaneColumns> panes;        // allocated by the first kernel with panes
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
+    StageTicks stages;                                                              // accumulated
 };
 
 struct KernelContext {
