@@ -183,7 +183,7 @@ Result<void> write_payloads(GltfDocument& document, const GltfOrigin& has, const
             set_index(primitive, "material", material == document.indices.materials.end() ? -1 : material->second);
             write_variants(primitive, mesh.parts[part], document.indices.materials);
             int uv_sets = 0;
-            for (const Id<Material> used : materials_of(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, used));
+            for (const Id<Material> assigned : materials_of(mesh.parts[part])) uv_sets = std::max(uv_sets, uv_sets_of(scene, assigned));
             provide_uv_sets(document, primitive, uv_sets);
         }
     }
