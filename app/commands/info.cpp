@@ -191,7 +191,7 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
                   "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "
                   "for a few seconds, "
                   "the start-up time of the view transform and of the denoiser, and what path reuse gains and costs");
-    add_staging_options(*sub, command->overrides.staging);
+    add_scene_selection_options(*sub, command->overrides.scene_selection);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });
 }

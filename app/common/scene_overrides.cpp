@@ -170,10 +170,10 @@ Result<std::optional<LightRig>> parse_light(std::string_view text) {
 
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view,
                              std::vector<Diagnostic>* warnings) {
-    const Result<SceneSelection> staging = find_staging(overrides.staging, scene);
-    if (!staging) return staging.error();
-    const bool other_scene = staging->scene != scene.staging.scene;
-    scene = with_scene_selection(scene, *staging);
+    const Result<SceneSelection> scene_selection = find_scene_selection(overrides.scene_selection, scene);
+    if (!scene_selection) return scene_selection.error();
+    const bool other_scene = scene_selection->scene != scene.scene_selection.scene;
+    scene = with_scene_selection(scene, *scene_selection);
     const std::vector<Id<Node>> cameras = camera_nodes(scene);
     if (!overrides.camera.empty()) {
         const Result<Id<Node>> camera = find_camera(scene, overrides.camera);

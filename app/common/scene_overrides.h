@@ -43,7 +43,7 @@ struct SceneOverrides {
     std::optional<float> aperture = {}, focus = {}; // metres
     std::optional<LightMix::Grouping> groups = {};
     std::optional<int64_t> texture_mib = {}; // memory limit for all decoded textures in MiB; larger ones are downsampled while loading
-    SceneSelectionOptions staging = {};
+    SceneSelectionOptions scene_selection = {};
 };
 
 // Without a camera in the scene, one is framed around it for a picture of `aspect` (width / height). Errors: unknown animation,

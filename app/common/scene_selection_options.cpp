@@ -43,31 +43,31 @@ Result<size_t> find_scene(const Scene& scene, const std::string& wanted) {
 
 } // namespace
 
-Result<SceneSelection> find_staging(const SceneSelectionOptions& choice, const Scene& scene) {
-    SceneSelection staging = scene.staging;
+Result<SceneSelection> find_scene_selection(const SceneSelectionOptions& choice, const Scene& scene) {
+    SceneSelection scene_selection = scene.scene_selection;
     if (!choice.animation.empty()) {
         const Result<Id<Clip>> clip = find_clip(scene, choice.animation);
         if (!clip) return clip.error();
-        staging.clip = *clip;
-        staging.seconds = 0;
+        scene_selection.clip = *clip;
+        scene_selection.seconds = 0;
     }
-    if (choice.seconds && !staging.clip) return Error{.what = "--animation-time needs --animation"};
-    if (choice.seconds) staging.seconds = *choice.seconds;
+    if (choice.seconds && !scene_selection.clip) return Error{.what = "--animation-time needs --animation"};
+    if (choice.seconds) scene_selection.seconds = *choice.seconds;
     if (!choice.scene.empty()) {
         const Result<size_t> index = find_scene(scene, choice.scene);
         if (!index) return index.error();
-        staging.scene = int32_t(*index);
+        scene_selection.scene = int32_t(*index);
     }
     if (!choice.variant.empty()) {
         const Result<size_t> index = find_named("variant of materials", scene.variants, choice.variant);
         if (!index && choice.variant != "none") return index.error();
-        staging.variant = index ? int32_t(*index) : -1;
+        scene_selection.variant = index ? int32_t(*index) : -1;
     }
-    if (const Result<void> valid = check_scene_selection(scene, staging); !valid) return valid.error();
-    return staging;
+    if (const Result<void> valid = check_scene_selection(scene, scene_selection); !valid) return valid.error();
+    return scene_selection;
 }
 
-void add_staging_options(CLI::App& app, SceneSelectionOptions& choice) {
+void add_scene_selection_options(CLI::App& app, SceneSelectionOptions& choice) {
     app.add_option("--animation", choice.animation, "Animation clip [none: rest pose]")->type_name("NAME|INDEX|none");
     app.add_option("--animation-time", choice.seconds, "Time of the animation in seconds [0]")->type_name("S");
     app.add_option("--scene", choice.scene, "Scene of the file [its default]")->type_name("NAME|INDEX");

@@ -23,8 +23,8 @@ struct SceneSelectionOptions {
 };
 
 // Errors: unknown name, a time without an animation, an invalid time.
-Result<SceneSelection> find_staging(const SceneSelectionOptions& choice, const Scene& scene);
+Result<SceneSelection> find_scene_selection(const SceneSelectionOptions& choice, const Scene& scene);
 
-void add_staging_options(CLI::App& app, SceneSelectionOptions& choice);
+void add_scene_selection_options(CLI::App& app, SceneSelectionOptions& choice);
 
 } // namespace blush

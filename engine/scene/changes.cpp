@@ -117,7 +117,7 @@ void diff_moved_meshes(const Scene& after, Changes& changes) {
 }
 
 bool same_moment(const Scene& a, const Scene& b) {
-    const SceneSelection &before = a.staging, &after = b.staging;
+    const SceneSelection &before = a.scene_selection, &after = b.scene_selection;
     if (before.scene != after.scene || before.clip != after.clip) return false;
     if (!before.clip) return true;
     const Clip *x = a.clips.find(before.clip), *y = b.clips.find(after.clip);

@@ -313,7 +313,7 @@ struct Scene {
     Table<Clip> clips;
     std::vector<std::string> scene_names; // of a file with several scenes; else empty
     std::vector<std::string> variants;
-    SceneSelection staging;
+    SceneSelection scene_selection;
     Environment environment;
     LightMix mix;
     View view;

@@ -92,7 +92,7 @@ Result<void> validate(const Scene& scene) {
     if (auto valid = validate_records(scene.cameras); !valid) return valid;
     if (auto valid = validate_records(scene.skins); !valid) return valid;
     if (auto valid = validate_records(scene.clips); !valid) return valid;
-    if (auto valid = check_scene_selection(scene, scene.staging); !valid) return valid;
+    if (auto valid = check_scene_selection(scene, scene.scene_selection); !valid) return valid;
     if (auto valid = validate(scene.environment); !valid) return valid;
     if (auto valid = validate(scene.mix); !valid) return valid;
     if (auto valid = validate(scene.view.lens); !valid) return valid;

@@ -108,7 +108,7 @@ template <class V> struct ChildImportance {
     V value;
     Mask<V> lit;  // it is positive
     Mask<V> like; // its lights look nearly alike: selection by power is good enough
-    Mask<V> afar; // so they do but for their normals: selection by the direction of the receiver is good enough
+    Mask<V> afar; // they look alike except for their normals: the table by direction of the receiver (patch_thresholds) is accurate enough
 };
 // They look alike if the least factor of distance, receiver's cosine and emission is at least this share of the largest.
 constexpr float like_share = 0.3f, afar_share = 0.1f;

@@ -77,26 +77,27 @@ TEST(Overrides, WithoutACameraTheSceneIsFramed) {
 TEST(Overrides, AnimationsScenesAndVariantsAreFoundByNameOrNumber) {
     Sample s = sample_project();
     s.project.scene.scene_names = {"Day", "Night"};
-    const auto staging = [&](const SceneSelectionOptions& choice) {
+    const auto scene_selection = [&](const SceneSelectionOptions& choice) {
         Scene scene = s.project.scene;
-        const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
+        const Result<void> applied = apply_overrides({.scene_selection = choice}, scene, 1);
         EXPECT_TRUE(applied) << applied.error().text();
-        return scene.staging;
+        return scene.scene_selection;
     };
-    EXPECT_EQ(staging({}), SceneSelection{});
-    EXPECT_EQ(staging({.animation = "Swing", .seconds = 1.5f}), (SceneSelection{.clip = s.swing, .seconds = 1.5f}));
-    EXPECT_EQ(staging({.animation = "0"}), (SceneSelection{.clip = s.swing}));
-    EXPECT_EQ(staging({.scene = "Night"}).scene, 1);
-    EXPECT_EQ(staging({.variant = "All grey"}).variant, 1);
-    s.project.scene.staging = {.clip = s.swing, .seconds = 1, .variant = 1};
-    EXPECT_EQ(staging({.seconds = 0.5f}), (SceneSelection{.clip = s.swing, .seconds = 0.5f, .variant = 1})) << "of the file's choice";
-    EXPECT_EQ(staging({.animation = "none", .variant = "none"}), SceneSelection{});
+    EXPECT_EQ(scene_selection({}), SceneSelection{});
+    EXPECT_EQ(scene_selection({.animation = "Swing", .seconds = 1.5f}), (SceneSelection{.clip = s.swing, .seconds = 1.5f}));
+    EXPECT_EQ(scene_selection({.animation = "0"}), (SceneSelection{.clip = s.swing}));
+    EXPECT_EQ(scene_selection({.scene = "Night"}).scene, 1);
+    EXPECT_EQ(scene_selection({.variant = "All grey"}).variant, 1);
+    s.project.scene.scene_selection = {.clip = s.swing, .seconds = 1, .variant = 1};
+    EXPECT_EQ(scene_selection({.seconds = 0.5f}), (SceneSelection{.clip = s.swing, .seconds = 0.5f, .variant = 1}))
+        << "of the file's choice";
+    EXPECT_EQ(scene_selection({.animation = "none", .variant = "none"}), SceneSelection{});
 }
 
 TEST(Overrides, UnknownChoicesAreErrors) {
     const auto error = [](const SceneSelectionOptions& choice) {
         Scene scene = sample_project().project.scene;
-        const Result<void> applied = apply_overrides({.staging = choice}, scene, 1);
+        const Result<void> applied = apply_overrides({.scene_selection = choice}, scene, 1);
         return applied ? "" : applied.error().text();
     };
     EXPECT_EQ(error({.animation = "Jump"}), "there is no animation \"Jump\" (there are \"Swing\")");
@@ -113,7 +114,7 @@ TEST(Overrides, CamerasUseTheAnimatedPose) {
     clip.channels.push_back({s.camera_node, Channel::Property::translation, clip.channels.back().keyframes});
     s.project.scene.clips.set(s.swing, clip);
     Scene scene = s.project.scene;
-    ASSERT_TRUE(apply_overrides({.camera = "Camera", .staging = {.animation = "Swing", .seconds = 1.f}}, scene, 1));
+    ASSERT_TRUE(apply_overrides({.camera = "Camera", .scene_selection = {.animation = "Swing", .seconds = 1.f}}, scene, 1));
     EXPECT_EQ(scene.view.position, (Vec3{1, 0, 3}));
 }
 

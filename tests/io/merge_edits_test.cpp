@@ -88,7 +88,7 @@ TEST(MergeEdits, IntoAnUnchangedFileAppliesTheEdits) {
         EXPECT_TRUE(merged.scene.cameras == mine.cameras) << sequence;
         EXPECT_TRUE(merged.scene.skins == mine.skins) << sequence;
         EXPECT_TRUE(clips_that_move_something(merged.scene) == clips_that_move_something(mine)) << sequence;
-        EXPECT_TRUE(merged.scene.staging == mine.staging) << sequence;
+        EXPECT_TRUE(merged.scene.scene_selection == mine.scene_selection) << sequence;
         EXPECT_TRUE(merged.scene.environment == mine.environment) << sequence;
         EXPECT_TRUE(merged.scene.mix == mine.mix) << sequence;
         EXPECT_TRUE(merged.scene.view == mine.view) << sequence;

@@ -46,7 +46,7 @@ void expect_same_tables(const Scene& a, const Scene& b, int sequence) {
     EXPECT_TRUE(a.environment == b.environment) << sequence;
     EXPECT_TRUE(a.mix == b.mix) << sequence;
     EXPECT_TRUE(a.view == b.view) << sequence;
-    EXPECT_TRUE(a.staging == b.staging) << sequence;
+    EXPECT_TRUE(a.scene_selection == b.scene_selection) << sequence;
 }
 
 // A file whose JSON changed without a change of the scene: merging by name equals applying by id.

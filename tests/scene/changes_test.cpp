@@ -98,13 +98,13 @@ TEST(Diff, NodeEdits) {
 
 TEST(Diff, SceneSelectionEdits) {
     Sample s = sample_project();
-    const auto of = [&](const SceneSelection& staging) { return seen(changes_of(s, SetSceneSelection{staging})); };
+    const auto of = [&](const SceneSelection& scene_selection) { return seen(changes_of(s, SetSceneSelection{scene_selection})); };
     const Seen motion = only([](Changes& c) { c.motion = true; });
     EXPECT_EQ(of({.clip = s.swing}), motion);
     EXPECT_EQ(of({.seconds = 1}), nothing) << "of no clip";
     EXPECT_EQ(of({.variant = 0}), nothing) << "has the same material";
     EXPECT_EQ(of({.variant = 1}), only([&](Changes& c) { c.meshes = {s.quad}; }));
-    s.project.scene.staging = {.clip = s.swing, .seconds = 1};
+    s.project.scene.scene_selection = {.clip = s.swing, .seconds = 1};
     EXPECT_EQ(of({.clip = s.swing, .seconds = 1.5f}), motion);
     EXPECT_EQ(of({}), motion);
     EXPECT_EQ(of({.clip = s.swing, .seconds = 1}), nothing);

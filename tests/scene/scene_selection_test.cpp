@@ -40,11 +40,11 @@ TEST(SceneSelection, ADragOfTheTimeIsOneStepThatCanBeUndone) {
     constexpr Gesture drag = 7;
     for (const float t : {0.25f, 0.5f, 1.5f}) ASSERT_TRUE(document.apply(SetSceneSelection{swing_at(s, t)}, drag));
     EXPECT_EQ(document.undo_labels().size(), 1u);
-    EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
+    EXPECT_EQ(document.project().scene.scene_selection, swing_at(s, 1.5f));
     ASSERT_TRUE(document.undo());
     EXPECT_EQ(document.project(), s.project);
     ASSERT_TRUE(document.redo());
-    EXPECT_EQ(document.project().scene.staging, swing_at(s, 1.5f));
+    EXPECT_EQ(document.project().scene.scene_selection, swing_at(s, 1.5f));
 }
 
 TEST(SceneSelection, NonFiniteAnimatedNodesAreHidden) {

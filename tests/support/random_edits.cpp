@@ -219,14 +219,14 @@ std::optional<Edit> make(Rng&, const Project& p, std::type_identity<BakeMix>) {
 }
 std::optional<Edit> make(Rng& rng, const Project&, std::type_identity<SetLens>) { return SetLens{lens(rng)}; }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetSceneSelection>) {
-    SceneSelection staging = p.scene.staging;
+    SceneSelection scene_selection = p.scene.scene_selection;
     switch (whole(rng, 0, 3)) {
-    case 0: staging.clip = coin(rng) ? pick_id(rng, p.scene.clips) : Id<Clip>{}; break;
-    case 1: staging.seconds = uniform(rng, 0, 3); break;
-    case 2: staging.variant = whole(rng, -1, int(p.scene.variants.size()) - 1); break;
-    case 3: staging.scene = whole(rng, 0, std::max(0, int(p.scene.scene_names.size()) - 1)); break;
+    case 0: scene_selection.clip = coin(rng) ? pick_id(rng, p.scene.clips) : Id<Clip>{}; break;
+    case 1: scene_selection.seconds = uniform(rng, 0, 3); break;
+    case 2: scene_selection.variant = whole(rng, -1, int(p.scene.variants.size()) - 1); break;
+    case 3: scene_selection.scene = whole(rng, 0, std::max(0, int(p.scene.scene_names.size()) - 1)); break;
     }
-    return SetSceneSelection{staging};
+    return SetSceneSelection{scene_selection};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;

@@ -27,14 +27,14 @@ Scene all_on(Scene scene) {
 
 bool LightPresence::in(const Scene& scene) {
     const bool same = has_light_ && scene.nodes.shares_storage(nodes_) && scene.lights.shares_storage(lights_) &&
-                      scene.materials.shares_storage(materials_) && scene.meshes.shares_storage(meshes_) && scene.staging == staging_ &&
-                      scene.environment == environment_;
+                      scene.materials.shares_storage(materials_) && scene.meshes.shares_storage(meshes_) &&
+                      scene.scene_selection == scene_selection_ && scene.environment == environment_;
     if (same) return *has_light_;
     nodes_ = scene.nodes;
     lights_ = scene.lights;
     materials_ = scene.materials;
     meshes_ = scene.meshes;
-    staging_ = scene.staging;
+    scene_selection_ = scene.scene_selection;
     environment_ = scene.environment;
     return *(has_light_ = has_light(all_on(scene)));
 }

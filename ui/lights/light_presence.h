@@ -16,7 +16,7 @@ private:
     Table<Light> lights_;
     Table<Material> materials_;
     Table<Mesh> meshes_;
-    SceneSelection staging_;
+    SceneSelection scene_selection_;
     Environment environment_;
     std::optional<bool> has_light_;
 };

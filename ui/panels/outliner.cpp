@@ -129,20 +129,20 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
 // Scene and material variant, if the file has several.
 void draw_choices(PanelContext& c) {
     const Scene& scene = c.scene();
-    SceneSelection staging = scene.staging;
+    SceneSelection scene_selection = scene.scene_selection;
     const auto choose = [&](const char* label, int32_t& index, std::vector<std::string> names, int32_t first, const char* tip) {
         for (size_t i = 0; i < names.size(); ++i) names[i] += fmt::format("##{}", i); // names may be equal
         Fields f(c.ui, "Outliner");
         std::string name = names.at(size_t(index - first));
         if (f.choice(label, name, names, tip)) index = int32_t(std::ranges::find(names, name) - names.begin()) + first;
     };
-    if (!scene.scene_names.empty()) choose("Scene", staging.scene, scene.scene_names, 0, "Scene of the file to show.");
+    if (!scene.scene_names.empty()) choose("Scene", scene_selection.scene, scene.scene_names, 0, "Scene of the file to show.");
     if (!scene.variants.empty()) {
         std::vector<std::string> names{"Default"};
         names.insert(names.end(), scene.variants.begin(), scene.variants.end());
-        choose("Materials", staging.variant, std::move(names), -1, "Material variant of the file (KHR_materials_variants).");
+        choose("Materials", scene_selection.variant, std::move(names), -1, "Material variant of the file (KHR_materials_variants).");
     }
-    if (staging != scene.staging) c.apply(SetSceneSelection{staging});
+    if (scene_selection != scene.scene_selection) c.apply(SetSceneSelection{scene_selection});
 }
 
 void draw_add_light(PanelContext& c) {

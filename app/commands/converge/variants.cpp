@@ -45,7 +45,7 @@ const char* shared_option(const RenderSettings& a, const RenderSettings& b, cons
     if (o.camera != p.camera || o.environment != p.environment || o.aperture != p.aperture || o.focus != p.focus ||
         o.texture_mib != p.texture_mib)
         return "--camera, --env, --aperture, --focus or --texture-memory";
-    if (o.staging != p.staging) return "--animation, --animation-time, --scene or --material-variant";
+    if (o.scene_selection != p.scene_selection) return "--animation, --animation-time, --scene or --material-variant";
     return nullptr;
 }
 

@@ -216,7 +216,7 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
     add_picture_options(app, options);
-    add_staging_options(app, options.overrides.staging);
+    add_scene_selection_options(app, options.overrides.scene_selection);
     add_light_options(app, options);
     add_stop_options(app, options);
     add_integrator_options(app, options);

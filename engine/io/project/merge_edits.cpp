@@ -231,12 +231,13 @@ MergedEdits merge_edits(const Scene& base, const Scene& mine, const Scene& their
     merge.value(base.environment.image, mine.environment.image, scene.environment.image, false, "environment", "the image");
     merge.fields(base.mix, mine.mix, scene.mix, "light mix");
     scene.view = mine.view;
-    SceneSelection staging = mine.staging;
-    staging.clip = map.clips(staging.clip);
-    if (!staging.clip) staging.seconds = 0;
-    if (staging.scene >= int32_t(std::max<size_t>(theirs.scene_names.size(), 1))) staging.scene = theirs.staging.scene;
-    if (staging.variant >= int32_t(theirs.variants.size())) staging.variant = -1;
-    scene.staging = staging;
+    SceneSelection scene_selection = mine.scene_selection;
+    scene_selection.clip = map.clips(scene_selection.clip);
+    if (!scene_selection.clip) scene_selection.seconds = 0;
+    if (scene_selection.scene >= int32_t(std::max<size_t>(theirs.scene_names.size(), 1)))
+        scene_selection.scene = theirs.scene_selection.scene;
+    if (scene_selection.variant >= int32_t(theirs.variants.size())) scene_selection.variant = -1;
+    scene.scene_selection = scene_selection;
 
     drop_dangling(scene);
     if (const auto valid = validate(scene); !valid) {

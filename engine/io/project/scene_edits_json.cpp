@@ -76,7 +76,7 @@ Scene without_payloads(const Scene& imported, Scene now, Json& left_out) {
         if (const Clip* clip = now.clips.find(id))
             left_out.push_back(
                 fmt::format("animation \"{}\" has other targets than in the file: keyframes are not kept as text", clip->name));
-    if (!imported.clips.contains(now.staging.clip)) now.staging.clip = {};
+    if (!imported.clips.contains(now.scene_selection.clip)) now.scene_selection.clip = {};
     now.clips = imported.clips;
     now.skins = imported.skins;
     const Table<Node> nodes = now.nodes;
@@ -271,7 +271,7 @@ std::string edits_json(const Scene& imported, const Scene& edited) {
     add("cameras", table_edits(imported.cameras, now.cameras));
     add("environment", changed_fields(imported.environment, now.environment));
     add("mix", changed_fields(imported.mix, now.mix));
-    add("staging", changed_fields(imported.staging, now.staging));
+    add("staging", changed_fields(imported.scene_selection, now.scene_selection));
     add("view", changed_fields(imported.view, now.view));
     add("left_out", std::move(left_out));
     return json_text(json);
@@ -299,7 +299,8 @@ Result<Scene> apply_edits_json(Scene scene, std::string_view text, const std::fi
     if (const auto ok = apply_environment(member(*json, "environment"), scene.environment, folder); !ok) return ok.error();
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_json(mix, scene.mix))
         return Error{"", "an unknown field, or a value of the wrong type", "mix"};
-    if (const Json& staging = member(*json, "staging"); !staging.is_null() && !read_json(staging, scene.staging))
+    if (const Json& scene_selection = member(*json, "staging");
+        !scene_selection.is_null() && !read_json(scene_selection, scene.scene_selection))
         return Error{"", "an unknown field, or a value of the wrong type", "staging"};
     if (const Json& view = member(*json, "view"); !view.is_null() && !read_json(view, scene.view))
         return Error{"", "an unknown field, or a value of the wrong type", "view"};

@@ -150,7 +150,7 @@ std::string scene_hash(const Scene& scene) {
     }
     for (const auto& [id, skin] : scene.skins) hash_skin(hash, skin);
     for (const auto& [id, clip] : scene.clips) hash_clip(hash, clip);
-    visit_fields(scene.staging, hash);
+    visit_fields(scene.scene_selection, hash);
     visit_fields(scene.environment, hash);
     if (scene.environment.kind == Environment::Kind::image) hash_image(hash, scene.environment.image);
     // The pivot does not affect the image; position, rotation and lens do.

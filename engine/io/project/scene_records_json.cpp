@@ -112,7 +112,7 @@ std::string records_json(const Scene& scene) {
                       {"clips", table_json(scene.clips)},
                       {"scene_names", scene.scene_names},
                       {"variants", scene.variants},
-                      {"staging", to_json(scene.staging)},
+                      {"staging", to_json(scene.scene_selection)},
                       {"environment", to_json(scene.environment)},
                       {"mix", to_json(scene.mix)},
                       {"view", to_json(scene.view)}});
@@ -127,7 +127,7 @@ Result<Scene> scene_of_records(std::string_view text, const Scene& file) {
                        read_table(*json, "lights", scene.lights) && read_table(*json, "cameras", scene.cameras) &&
                        read_table(*json, "skins", scene.skins) && read_table(*json, "clips", scene.clips) &&
                        read_member(*json, "scene_names", scene.scene_names) && read_member(*json, "variants", scene.variants) &&
-                       read_member(*json, "staging", scene.staging) && read_member(*json, "environment", scene.environment) &&
+                       read_member(*json, "staging", scene.scene_selection) && read_member(*json, "environment", scene.environment) &&
                        read_member(*json, "mix", scene.mix) && read_member(*json, "view", scene.view);
     if (!whole) return Error{"", "not the records of a scene, or a duplicate id", ""};
     take_payloads(scene, file);

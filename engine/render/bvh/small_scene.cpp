@@ -128,7 +128,7 @@ struct Builder {
     void add_planes() {
         while (!found.empty()) {
             const SmallScene::Plane plane{to_float(normalize(normal(found[0]))), scene.positions[size_t(found[0].vertices[0])]};
-            // The first is in its plane but for the rounding of the normal.
+            // The first face is in its plane, up to the rounding of the normal.
             const auto others = std::stable_partition(found.begin() + 1, found.end(), [&](const Corners& c) { return in_plane(plane, c); });
             add_plane({found.begin(), others});
             found.erase(found.begin(), others);

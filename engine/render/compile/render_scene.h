@@ -61,7 +61,7 @@ public:
 private:
     void update_materials(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
     void update_geometry(const Scene& scene, const UpdatePlan& plan, const Workers& workers);
-    std::vector<SceneObject> list_anew(const Scene& scene);
+    std::vector<SceneObject> relist_objects(const Scene& scene);
     bool move_area_lights(const Scene& scene, const std::vector<Id<Node>>& moved);
     void switch_area_lights(const Scene& scene);
     void update_used_materials(const Scene& scene, const UpdatePlan& plan);
@@ -80,7 +80,7 @@ private:
 
     // What the current update has changed so far.
     struct Changed {
-        bool objects = false;     // listed anew, or their vertices laid out anew
+        bool objects = false;     // listed again, or their vertices placed again
         bool area_lights = false; // meshes of area lights moved, were disabled or enabled, or their masks changed
         bool spheres = false;     // sphere lights
         bool origin = false;      // of all positions

@@ -52,7 +52,7 @@ bool same_shapes(const std::vector<SceneObject>& a, const std::vector<SceneObjec
 } // namespace
 
 // Returns the objects before.
-std::vector<SceneObject> RenderScene::list_anew(const Scene& scene) {
+std::vector<SceneObject> RenderScene::relist_objects(const Scene& scene) {
     left_out_.clear();
     std::vector<SceneObject> objects = list_objects(scene, &left_out_);
     baked_.bake(scene, objects, left_out_);
@@ -69,7 +69,7 @@ std::vector<SceneObject> RenderScene::list_anew(const Scene& scene) {
     return objects;
 }
 
-// Moves meshes of area lights. False if all objects must be listed anew: a mesh is shared, its transform is or was not finite, or it is
+// Moves meshes of area lights. False if all objects must be listed again: a mesh is shared, its transform is or was not finite, or it is
 // now, or no longer, a shadow catcher.
 bool RenderScene::move_area_lights(const Scene& scene, const std::vector<Id<Node>>& moved) {
     if (moved.empty()) return true;
@@ -115,7 +115,7 @@ void RenderScene::update_used_materials(const Scene& scene, const UpdatePlan& pl
     tables_.panes = used_.panes;
 }
 
-// Lays out the vertices anew, or moves those of moved objects.
+// Places all vertices again, or moves those of moved objects.
 void RenderScene::update_vertices(const UpdatePlan& plan, const std::vector<SceneObject>& before) {
     AttributeNeeds needs = needs_of(used_, has_colors_, materials_.uv_sets);
     const bool rebuild = plan.objects || needs != needs_ || (changed_.objects && !same_shapes(before, objects_));
@@ -177,7 +177,7 @@ void RenderScene::update_geometry(const Scene& scene, const UpdatePlan& plan, co
     changed_.spheres = spheres != spheres_;
     spheres_ = std::move(spheres);
     changed_.objects = plan.objects || plan.transforms || !move_area_lights(scene, plan.moved_area_lights);
-    const std::vector<SceneObject> before = changed_.objects ? list_anew(scene) : std::vector<SceneObject>{};
+    const std::vector<SceneObject> before = changed_.objects ? relist_objects(scene) : std::vector<SceneObject>{};
 
     switch_area_lights(scene);
 

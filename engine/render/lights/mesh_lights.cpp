@@ -77,7 +77,7 @@ std::vector<bool> is_sampled(const GeometryPool& geometry, const std::vector<siz
 // What the records of one part have in common.
 struct Emitter {
     size_t part = 0;
-    LightRecord record{}; // but for the triangle
+    LightRecord record{}; // except the triangle
     Vec3 factor{0, 0, 0}; // emission before textures
     bool varying = false; // emission or opacity is textured, or opacity is in vertex colours
     bool mirrored = false;

@@ -17,7 +17,7 @@ Vec3 vector_at(const Channel& channel, float seconds) {
 } // namespace
 
 std::span<const Channel> channels_of(const Scene& scene, Id<Node> node) {
-    const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;
+    const Clip* clip = scene.scene_selection.clip ? scene.clips.find(scene.scene_selection.clip) : nullptr;
     if (!clip) return {};
     const auto found = std::ranges::equal_range(clip->channels, node, {}, &Channel::node);
     return {found.begin(), found.end()};
@@ -35,7 +35,7 @@ Transform posed_transform(const Scene& scene, Id<Node> id, const Node& node) {
     Transform posed = node.local;
     for (const Channel& channel : channels_of(scene, id)) {
         if (channel.property == Property::morph_weights) continue;
-        const float t = scene.staging.seconds;
+        const float t = scene.scene_selection.seconds;
         posed.matrix.reset();
         if (channel.property == Property::rotation)
             posed.rotation = rotation_at(*channel.keyframes, t);
@@ -47,13 +47,13 @@ Transform posed_transform(const Scene& scene, Id<Node> id, const Node& node) {
 
 std::vector<float> posed_morph_weights(const Scene& scene, Id<Node> id, const Node& node) {
     for (const Channel& channel : channels_of(scene, id))
-        if (channel.property == Property::morph_weights) return value_at(*channel.keyframes, scene.staging.seconds);
+        if (channel.property == Property::morph_weights) return value_at(*channel.keyframes, scene.scene_selection.seconds);
     return node.morph_weights;
 }
 
 bool is_root_of_other_scene(const Scene& scene, const Node& node) {
     return !node.only_in_scenes.empty() && !node.parent &&
-           std::ranges::find(node.only_in_scenes, scene.staging.scene) == node.only_in_scenes.end();
+           std::ranges::find(node.only_in_scenes, scene.scene_selection.scene) == node.only_in_scenes.end();
 }
 
 bool is_in_chosen_scene(const Scene& scene, Id<Node> id) {

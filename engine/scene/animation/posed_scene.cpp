@@ -10,7 +10,7 @@ namespace {
 // Animated nodes whose transform is not finite.
 std::vector<Id<Node>> carried_off(const Scene& scene) {
     std::vector<Id<Node>> nodes;
-    const Clip* clip = scene.staging.clip ? scene.clips.find(scene.staging.clip) : nullptr;
+    const Clip* clip = scene.scene_selection.clip ? scene.clips.find(scene.scene_selection.clip) : nullptr;
     WorldTransforms transforms(scene);
     for (size_t i = 0; clip && i < clip->channels.size(); ++i)
         if (const Id<Node> id = clip->channels[i].node; scene.nodes.contains(id) && !is_finite(transforms(id).world_from_node))
@@ -37,7 +37,7 @@ Scene with_pose_applied(const Scene& scene) {
         hidden.visible = false;
         posed.nodes.set(id, std::move(hidden));
     }
-    posed.staging = {};
+    posed.scene_selection = {};
     posed.clips = {};
     posed.scene_names.clear();
     return posed;

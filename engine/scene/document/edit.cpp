@@ -96,8 +96,8 @@ Result<void> apply_to(Project& p, const SetMix& e) { return replace(p.scene.mix,
 Result<void> apply_to(Project& p, const BakeMix& e) { return replace(p.scene, e.scene); }
 Result<void> apply_to(Project& p, const SetLens& e) { return replace(p.scene.view.lens, e.lens); }
 Result<void> apply_to(Project& p, const SetSceneSelection& e) {
-    if (auto valid = check_scene_selection(p.scene, e.staging); !valid) return valid;
-    p.scene = with_scene_selection(p.scene, e.staging);
+    if (auto valid = check_scene_selection(p.scene, e.scene_selection); !valid) return valid;
+    p.scene = with_scene_selection(p.scene, e.scene_selection);
     return {};
 }
 Result<void> apply_to(Project& p, const SetRender& e) { return replace(p.render, e.settings); }
@@ -169,7 +169,7 @@ struct Labeller {
     std::string operator()(const SetMix&) const { return "Change light mix"; }
     std::string operator()(const BakeMix&) const { return "Bake light mix"; }
     std::string operator()(const SetLens&) const { return "Change lens"; }
-    std::string operator()(const SetSceneSelection& e) const { return scene_selection_label(p.scene, e.staging); }
+    std::string operator()(const SetSceneSelection& e) const { return scene_selection_label(p.scene, e.scene_selection); }
     std::string operator()(const SetRender&) const { return "Change render settings"; }
     std::string operator()(const SetView&) const { return "Change display settings"; }
     std::string operator()(const AddLight& e) const { return with_name("Add light", e.node.name.empty() ? e.light.name : e.node.name); }

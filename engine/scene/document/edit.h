@@ -60,7 +60,7 @@ struct SetLens {
     Lens lens;
 }; // of the view
 struct SetSceneSelection {
-    SceneSelection staging;
+    SceneSelection scene_selection;
 }; // a view through an animated camera follows it
 struct SetRender {
     RenderSettings settings;

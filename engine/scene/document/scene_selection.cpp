@@ -20,7 +20,7 @@ void apply_variant(Scene& scene) {
         if (std::ranges::all_of(mesh.parts, [](const MeshPart& part) { return part.by_variant.empty(); })) continue;
         Mesh dressed = mesh;
         for (MeshPart& part : dressed.parts)
-            if (!part.by_variant.empty()) part.material = part.by_variant[slot_of(part, scene.staging.variant)];
+            if (!part.by_variant.empty()) part.material = part.by_variant[slot_of(part, scene.scene_selection.variant)];
         scene.meshes.set(id, std::move(dressed));
     }
 }
@@ -48,12 +48,12 @@ Result<void> check_scene_selection(const Scene& scene, const SceneSelection& s) 
     return {};
 }
 
-Scene with_scene_selection(const Scene& scene, const SceneSelection& staging) {
+Scene with_scene_selection(const Scene& scene, const SceneSelection& scene_selection) {
     Scene next = scene;
-    next.staging = staging;
-    if (!staging.clip) next.staging.seconds = 0;
-    if (staging.variant != scene.staging.variant) apply_variant(next);
-    if (staging.clip == scene.staging.clip && staging.seconds == scene.staging.seconds) return next;
+    next.scene_selection = scene_selection;
+    if (!scene_selection.clip) next.scene_selection.seconds = 0;
+    if (scene_selection.variant != scene.scene_selection.variant) apply_variant(next);
+    if (scene_selection.clip == scene.scene_selection.clip && scene_selection.seconds == scene.scene_selection.seconds) return next;
     if (const Id<Node> camera = current_camera(scene)) {
         const View eye = view_of_camera(next, camera);
         next.view.position = eye.position;
@@ -62,23 +62,23 @@ Scene with_scene_selection(const Scene& scene, const SceneSelection& staging) {
     return next;
 }
 
-std::string scene_selection_label(const Scene& scene, const SceneSelection& staging) {
+std::string scene_selection_label(const Scene& scene, const SceneSelection& scene_selection) {
     const auto name = [](const std::vector<std::string>& names, int32_t i) {
         return i >= 0 && size_t(i) < names.size() ? names[size_t(i)] : "none";
     };
-    const SceneSelection& now = scene.staging;
-    if (staging.variant != now.variant) return "Choose variant " + name(scene.variants, staging.variant);
-    if (staging.scene != now.scene) return "Choose scene " + name(scene.scene_names, staging.scene);
-    const Clip* clip = scene.clips.find(staging.clip);
-    if (staging.clip != now.clip) return clip ? "Choose animation " + clip->name : "Choose no animation";
+    const SceneSelection& now = scene.scene_selection;
+    if (scene_selection.variant != now.variant) return "Choose variant " + name(scene.variants, scene_selection.variant);
+    if (scene_selection.scene != now.scene) return "Choose scene " + name(scene.scene_names, scene_selection.scene);
+    const Clip* clip = scene.clips.find(scene_selection.clip);
+    if (scene_selection.clip != now.clip) return clip ? "Choose animation " + clip->name : "Choose no animation";
     return "Change time";
 }
 
 void assign_material(const Scene& scene, MeshPart& part, Id<Material> material) {
     part.material = material;
     if (part.by_variant.empty()) return;
-    part.by_variant[slot_of(part, scene.staging.variant)] = material;
-    part.material = part.by_variant[slot_of(part, scene.staging.variant)]; // the default if the variant has no material
+    part.by_variant[slot_of(part, scene.scene_selection.variant)] = material;
+    part.material = part.by_variant[slot_of(part, scene.scene_selection.variant)]; // the default if the variant has no material
 }
 
 } // namespace blush

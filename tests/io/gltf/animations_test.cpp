@@ -55,7 +55,7 @@ TEST(GltfAnimations, AnimateNodes) {
     ASSERT_EQ(s.scene.clips.size(), 1u);
     EXPECT_EQ(only_clip(s).name, "Move");
     EXPECT_EQ(only_clip(s).seconds, 2);
-    EXPECT_FALSE(s.scene.staging.clip) << "rest pose until a clip is chosen";
+    EXPECT_FALSE(s.scene.scene_selection.clip) << "rest pose until a clip is chosen";
     EXPECT_EQ(at(s, 0.5f).translation, (Vec3{1, 1.5f, 2}));
     EXPECT_EQ(s.scene.nodes.begin()->value.local.translation, (Vec3{0, 0, 0}));
 }
@@ -308,7 +308,7 @@ void expect_comes_back(const ImportedScene& original, const Scene& edited, const
         EXPECT_EQ(scene_hash(loaded.scene), scene_hash(saved->scene)) << what;
         EXPECT_EQ(loaded.scene.nodes, saved->scene.nodes) << what;
         EXPECT_EQ(loaded.scene.skins, saved->scene.skins) << what;
-        EXPECT_EQ(loaded.scene.staging, saved->scene.staging) << what;
+        EXPECT_EQ(loaded.scene.scene_selection, saved->scene.scene_selection) << what;
         EXPECT_EQ(loaded.scene.view, edited.view) << what;
         EXPECT_EQ(loaded.scene.clips.size(), edited.clips.size()) << what;
         EXPECT_EQ(world_bounds(loaded.scene).low, world_bounds(edited).low) << what;

@@ -38,7 +38,7 @@ GltfBuilder day_and_night() {
 TEST(GltfScenes, TheDefaultSceneIsShown) {
     const ImportedScene s = imported(day_and_night());
     EXPECT_EQ(s.scene.scene_names, (std::vector<std::string>{"Day", "Scene 1"}));
-    EXPECT_EQ(s.scene.staging.scene, 1);
+    EXPECT_EQ(s.scene.scene_selection.scene, 1);
     EXPECT_EQ(shown_names(s.scene), (std::vector<std::string>{"floor", "candle"}));
     EXPECT_EQ(shown_names(with_scene_selection(s.scene, {.scene = 0})), (std::vector<std::string>{"floor", "lamp", "shade"}));
     EXPECT_FALSE(reports(s.report, "belong to no scene"));
@@ -67,7 +67,7 @@ TEST(GltfScenes, SurviveASaveWithTheChoice) {
         ASSERT_TRUE(saved) << error_text(saved);
         for (const Diagnostic& d : saved->diagnostics) ADD_FAILURE() << d.what;
         const ImportedScene loaded = load(folder / "saved.gltf");
-        EXPECT_EQ(loaded.scene.staging.scene, chosen);
+        EXPECT_EQ(loaded.scene.scene_selection.scene, chosen);
         EXPECT_EQ(loaded.scene.nodes, saved->scene.nodes);
         EXPECT_EQ(shown_names(loaded.scene), shown_names(saved->scene)) << "the new light is in both scenes";
         EXPECT_EQ(Json::parse(text_of(folder / "saved.gltf"))["scene"], 1) << "other scenes are unchanged";
@@ -127,7 +127,7 @@ TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
         ASSERT_TRUE(saved) << error_text(saved);
         for (const Diagnostic& d : saved->diagnostics) ADD_FAILURE() << d.what;
         const ImportedScene loaded = load(folder / "saved.gltf");
-        EXPECT_EQ(loaded.scene.staging.variant, 1);
+        EXPECT_EQ(loaded.scene.scene_selection.variant, 1);
         EXPECT_EQ(worn(loaded.scene), assigned ? "green" : "blue");
         EXPECT_EQ(worn(with_scene_selection(loaded.scene, {})), "red");
         EXPECT_EQ(worn(with_scene_selection(loaded.scene, {.variant = 2})), "green");

@@ -25,7 +25,7 @@ float random_float(Rng& rng, float low, float high) { return std::uniform_real_d
 Project stage(bool crowded) {
     Project project = test::rich_project();
     Scene& scene = project.scene;
-    scene.staging = {};
+    scene.scene_selection = {};
     project.render.width = 24;
     project.render.height = 16;
     if (!crowded) return project;

@@ -27,7 +27,7 @@ protected:
         ImGui::GetIO().MouseDown[0] = down;
         frame();
     }
-    float seconds() const { return document.project().scene.staging.seconds; }
+    float seconds() const { return document.project().scene.scene_selection.seconds; }
 
     test::Sample sample = test::sample_project();
     const ColorManagement color = test::our_colors();

@@ -10,7 +10,7 @@ namespace blush {
 
 // Reads the names of the scenes and the default scene.
 void import_scene_names(const GltfContext& context, Scene& scene);
-// Sets scene.staging. Invalid values are ignored with a warning.
+// Sets scene.scene_selection. Invalid values are ignored with a warning.
 void import_scene_selection(const GltfContext& context, size_t gltf_scene, const GltfIndices& indices, Scene& scene);
 
 Json scene_selection_json(const Scene& scene, const GltfIndices& indices);

@@ -124,7 +124,7 @@ Scene as_saved(Scene scene, const GltfIndices& indices, const Scene& read) {
     scene.cameras = kept(scene.cameras, indices.cameras);
     scene.skins = kept(scene.skins, indices.skins);
     scene.clips = kept(scene.clips, indices.clips);
-    if (!scene.clips.contains(scene.staging.clip)) scene.staging.clip = {}, scene.staging.seconds = 0;
+    if (!scene.clips.contains(scene.scene_selection.clip)) scene.scene_selection.clip = {}, scene.scene_selection.seconds = 0;
     for (const auto& [id, texture] : read.textures)
         if (const Texture* now = scene.textures.find(id)) {
             Texture named = *now;

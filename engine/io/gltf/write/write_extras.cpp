@@ -171,14 +171,15 @@ void write_scene_extras(GltfDocument& document, const ImportedScene& read, const
     Environment environment = project.scene.environment;
     environment.image = read.scene.environment.image; // pixels are compared by file
     write_scene_member(scene, "environment", read.scene.environment, environment, to_json(environment));
-    write_scene_member(scene, "staging", read.scene.staging, project.scene.staging, scene_selection_json(project.scene, document.indices));
+    write_scene_member(scene, "staging", read.scene.scene_selection, project.scene.scene_selection,
+                       scene_selection_json(project.scene, document.indices));
     write_scene_member(scene, "mix", read.scene.mix, project.scene.mix, to_json(project.scene.mix));
     // Without a saved view the importer computes one from the scene.
     Scene seen = read.scene;
     seen.meshes = project.scene.meshes;
     seen.clips = project.scene.clips;
     seen.skins = project.scene.skins;
-    seen.staging = project.scene.staging;
+    seen.scene_selection = project.scene.scene_selection;
     write_scene_member(scene, "view", read.has_view ? read.scene.view : initial_view(seen), project.scene.view,
                        to_json(project.scene.view));
     write_scene_member(scene, "render", read.render.value_or(RenderSettings{}), project.render,
