@@ -1,12 +1,17 @@
 // Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
 #include "io/image/image_io.h"
+#include "io/image/jpeg_encoding.h"
 #include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -58,6 +63,38 @@ TEST(Limits, TooLargeImagesStateTheirMemory) {
     EXPECT_TRUE(ends_in_one_line(finished));
     EXPECT_NE(finished.err.find("20000 x 20000 pixels needs"), std::string::npos) << finished.err;
     EXPECT_NE(finished.err.find("by ulimit -v"), std::string::npos) << finished.err;
+}
+
+// Encodes in a child process that may use only so much more address space: 'w' written, 'e' an Error; 'x' if the process ended.
+char encoded_within(size_t bytes, int width, int height, const std::vector<uint8_t>& rgb) {
+    const pid_t child = fork();
+    if (child == 0) {
+        size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlim_t most = pages * size_t(sysconf(_SC_PAGESIZE)) + bytes;
+        const rlimit limit{most, most};
+        std::atexit([] { _exit('x'); }); // other handlers would wait for threads that a child does not have
+        if (setrlimit(RLIMIT_AS, &limit) != 0) _exit('l');
+        _exit(encode_jpeg("a.jpg", width, height, rgb) ? 'w' : 'e');
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    return code == 'w' || code == 'e' ? char(code) : 'x';
+}
+
+TEST(Limits, JpegEncodingNeverEndsTheProcess) {
+    // Noise, so that the file is large.
+    constexpr int width = 65500, height = 48;
+    std::vector<uint8_t> rgb(size_t(width) * height * 3);
+    uint32_t state = 1;
+    for (uint8_t& value : rgb) value = uint8_t((state = state * 1664525 + 1013904223) >> 24);
+    std::string ends;
+    for (size_t kib = 16; kib <= size_t(1) << 17; kib = kib * 3 / 2) ends += encoded_within(kib * 1024, width, height, rgb);
+    const size_t enough = ends.find('w');
+    EXPECT_EQ(ends.find('x'), std::string::npos) << ends;
+    EXPECT_NE(enough, std::string::npos) << ends;
+    EXPECT_GT(std::min(enough, ends.size()), 3u) << "some of these limits must be too low: " << ends;
 }
 #endif
 
