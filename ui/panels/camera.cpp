@@ -112,7 +112,7 @@ void draw_frame(PanelContext& c) {
         settings.frame_aspect.reset();
         if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // index 0 is the camera's own aspect
     }
-    ImGui::BeginDisabled(frame.aspect <= 0);
+    ImGui::BeginDisabled(frame.aspect <= 0 || !c.ui.settings.follow_viewport);
     f.checkbox("Fit camera", frame.fit, "Render only the frame, as large as the window allows.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
