@@ -15,6 +15,23 @@
 namespace blush::TEST_FILE {
 namespace {
 
+// The exit code of a child process, which knows no more threads than this process has started; 255 if it was killed.
+unsigned in_child(const std::function<unsigned()>& run) {
+    const pid_t child = fork();
+    if (child == 0) _exit(int(run()));
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? unsigned(WEXITSTATUS(status)) : 255;
+}
+
+TEST(StartableThreads, AreAsManyAsWantedWithoutLimits) {
+    EXPECT_EQ(startable_threads(1), 1u);
+    EXPECT_EQ(startable_threads(3), 3u);
+    EXPECT_TRUE(in_child([] { return startable_threads(1'000'000) <= startable_threads_limit() ? 1u : 0u; }));
+}
+
+// Sanitizers reserve more address space and start threads of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr unsigned wanted = 200; // more than any other test of this process has started
 
 // True if this thread and others, `count` in all, run at the same time.
@@ -30,15 +47,6 @@ bool can_run(unsigned count) {
     return started;
 }
 
-// The exit code of a child process, which knows no more threads than this process has started; 255 if it was killed.
-unsigned in_child(const std::function<unsigned()>& run) {
-    const pid_t child = fork();
-    if (child == 0) _exit(int(run()));
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? unsigned(WEXITSTATUS(status)) : 255;
-}
-
 // startable_threads(wanted) in a child for which limit() has returned true; 0 if that many do not start, or the answer changes.
 unsigned startable_under(const std::function<bool()>& limit) {
     return in_child([&] {
@@ -49,14 +57,6 @@ unsigned startable_under(const std::function<bool()>& limit) {
     });
 }
 
-TEST(StartableThreads, AreAsManyAsWantedWithoutLimits) {
-    EXPECT_EQ(startable_threads(1), 1u);
-    EXPECT_EQ(startable_threads(3), 3u);
-    EXPECT_TRUE(in_child([] { return startable_threads(1'000'000) <= startable_threads_limit() ? 1u : 0u; }));
-}
-
-// Sanitizers reserve more address space.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(StartableThreads, FitIntoTheAddressSpace) {
     constexpr rlim_t stack = 8 << 20;
     constexpr unsigned kept = 5; // stacks of ended threads that glibc keeps
@@ -71,7 +71,6 @@ TEST(StartableThreads, FitIntoTheAddressSpace) {
     EXPECT_GE(count, 2u);
     EXPECT_LE(count, 21 + kept) << "each needs a stack";
 }
-#endif
 
 // The limit counts the processes of a user, and root has none: the child becomes a user with no other process.
 TEST(StartableThreads, KeepToTheLimitOfProcesses) {
@@ -82,6 +81,7 @@ TEST(StartableThreads, KeepToTheLimitOfProcesses) {
               }),
               7u);
 }
+#endif
 
 } // namespace
 } // namespace blush::TEST_FILE
