@@ -49,4 +49,9 @@ LuminanceRange luminance_range(std::span<const float> values, int channels) {
     return {percentile(0.01), percentile(0.99)};
 }
 
+float camera_exposure(float f_number, float seconds, float iso) {
+    constexpr float grey = 0.18f, metered = 0.125f; // nits at EV 0
+    return std::log2(grey / metered) - std::log2(f_number * f_number / seconds) + std::log2(iso / 100);
+}
+
 } // namespace blush

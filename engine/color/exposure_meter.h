@@ -1,4 +1,4 @@
-// Exposure meters: compute a suitable exposure for an image.
+// Exposure meters: compute a suitable exposure for an image, and the exposure of a camera's settings.
 #pragma once
 
 #include <span>
@@ -20,5 +20,9 @@ struct LuminanceRange {
     float low = 0, high = 0;
 };
 LuminanceRange luminance_range(std::span<const float> values, int channels);
+
+// Stops of a camera's settings: middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium
+// (ISO 2720:1974).
+float camera_exposure(float f_number, float seconds, float iso);
 
 } // namespace blush

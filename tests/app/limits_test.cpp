@@ -1,12 +1,17 @@
 // Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
 #include "io/image/image_io.h"
+#include "io/image/jpeg_encoding.h"
 #include "tests/app/program.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -58,6 +63,97 @@ TEST(Limits, TooLargeImagesStateTheirMemory) {
     EXPECT_TRUE(ends_in_one_line(finished));
     EXPECT_NE(finished.err.find("20000 x 20000 pixels needs"), std::string::npos) << finished.err;
     EXPECT_NE(finished.err.find("by ulimit -v"), std::string::npos) << finished.err;
+}
+
+// Two copies of a bumpy sheet of 2 n^2 triangles.
+std::string sheet_file(const TemporaryFolder& folder, uint32_t n) {
+    std::vector<float> positions;
+    std::vector<uint32_t> indices;
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i) {
+            const float x = 2 * float(i) / float(n) - 1, z = 2 * float(j) / float(n) - 1;
+            positions.insert(positions.end(), {x, 0.1f * std::sin(9 * x) * std::cos(7 * z), z});
+        }
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = j * (n + 1) + i, c = a + n + 2;
+            indices.insert(indices.end(), {a, c, a + 1, a, c - 1, c});
+        }
+    const size_t position_bytes = positions.size() * 4, index_bytes = indices.size() * 4;
+    std::ofstream bin(folder / "sheet.bin", std::ios::binary);
+    bin.write(reinterpret_cast<const char*>(positions.data()), std::streamsize(position_bytes));
+    bin.write(reinterpret_cast<const char*>(indices.data()), std::streamsize(index_bytes));
+    const Json json = {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0, 1}}}}},
+        {"nodes", {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 1, 0}}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+        {"accessors",
+         {{{"bufferView", 0},
+           {"componentType", 5126},
+           {"count", positions.size() / 3},
+           {"type", "VEC3"},
+           {"min", {-1, -1, -1}},
+           {"max", {1, 1, 1}}},
+          {{"bufferView", 1}, {"componentType", 5125}, {"count", indices.size()}, {"type", "SCALAR"}}}},
+        {"bufferViews",
+         {{{"buffer", 0}, {"byteLength", position_bytes}}, {{"buffer", 0}, {"byteOffset", position_bytes}, {"byteLength", index_bytes}}}},
+        {"buffers", {{{"byteLength", position_bytes + index_bytes}, {"uri", "sheet.bin"}}}}};
+    const std::string file = folder / "sheet.gltf";
+    std::ofstream(file) << json;
+    return file;
+}
+
+TEST(Limits, InfoSaysThatTreesAreCompactForWantOfMemory) {
+    const TemporaryFolder folder;
+    const std::string scene = sheet_file(folder, 700);
+    const std::string plenty = "memory suffices for them, and tracing is faster";
+    EXPECT_NE(test::blush({"info", scene}).out.find(plenty), std::string::npos);
+    int compact = 0;
+    for (int mib = 600; mib <= 2000; mib += 40) {
+        const Finished finished = in_shell("ulimit -v " + std::to_string(mib * 1024) + ";", {"info", scene});
+        if (finished.exit_code == 127) continue; // the loader could not load the program's libraries
+        if (finished.exit_code != 0) {
+            EXPECT_TRUE(ends_in_one_line(finished)) << mib << " MiB";
+            continue;
+        }
+        if (finished.out.find(plenty) != std::string::npos) break;
+        compact += finished.out.find("memory is short for 980000 triangles: tracing takes 1.24 times as long") != std::string::npos;
+    }
+    EXPECT_GT(compact, 0) << "some of these limits must leave little, or nothing was tested";
+}
+
+// Encodes in a child process that may use only so much more address space: 'w' written, 'e' an Error; 'x' if the process ended.
+char encoded_within(size_t bytes, int width, int height, const std::vector<uint8_t>& rgb) {
+    const pid_t child = fork();
+    if (child == 0) {
+        size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlim_t most = pages * size_t(sysconf(_SC_PAGESIZE)) + bytes;
+        const rlimit limit{most, most};
+        std::atexit([] { _exit('x'); }); // other handlers would wait for threads that a child does not have
+        if (setrlimit(RLIMIT_AS, &limit) != 0) _exit('l');
+        _exit(encode_jpeg("a.jpg", width, height, rgb) ? 'w' : 'e');
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    return code == 'w' || code == 'e' ? char(code) : 'x';
+}
+
+TEST(Limits, JpegEncodingNeverEndsTheProcess) {
+    // Noise, so that the file is large.
+    constexpr int width = 65500, height = 48;
+    std::vector<uint8_t> rgb(size_t(width) * height * 3);
+    uint32_t state = 1;
+    for (uint8_t& value : rgb) value = uint8_t((state = state * 1664525 + 1013904223) >> 24);
+    std::string ends;
+    for (size_t kib = 16; kib <= size_t(1) << 17; kib = kib * 3 / 2) ends += encoded_within(kib * 1024, width, height, rgb);
+    const size_t enough = ends.find('w');
+    EXPECT_EQ(ends.find('x'), std::string::npos) << ends;
+    EXPECT_NE(enough, std::string::npos) << ends;
+    EXPECT_GT(std::min(enough, ends.size()), 3u) << "some of these limits must be too low: " << ends;
 }
 #endif
 
@@ -162,6 +258,31 @@ TEST(Warnings, NothingIsVisible) {
         const Json json = test::blush_json(
             {"render", triangle_file(folder, z), "-o", folder / "a.exr", "--size", "32x32", "--spp", "1", "--env", "constant=1,1,1"});
         EXPECT_EQ(json["warnings"].dump().find("sees no object") != std::string::npos, z < 0) << json["warnings"];
+    }
+}
+
+// A smooth mirror and a point without size.
+TEST(Warnings, LightThatCannotBeFound) {
+    const TemporaryFolder folder;
+    const std::string scene = triangle_file(folder, 2);
+    Json json = Json::parse(std::ifstream(scene));
+    json["extensionsUsed"] = {"KHR_lights_punctual"};
+    json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10}}};
+    json["nodes"].push_back({{"translation", {0.3, 0.3, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    json["scenes"][0]["nodes"].push_back(2);
+    json["meshes"][0]["primitives"][0]["material"] = 0;
+    for (const double roughness : {0.0, 0.5}) {
+        json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", roughness}}}}};
+        std::ofstream(scene) << json;
+        const std::vector<std::string> arguments{"render", scene, "-o", folder / "a.exr", "--size", "32x24", "--spp", "16"};
+        const Finished finished = test::blush(arguments);
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        const bool smooth = roughness == 0;
+        EXPECT_EQ(finished.out.find(", some light cannot be found") != std::string::npos, smooth) << finished.out;
+        const Json error = test::blush_json(arguments)["error"];
+        EXPECT_EQ(error["missing_light"].is_string(), smooth) << error;
+        EXPECT_TRUE(error["relmse"].is_null() || !smooth) << error;
+        EXPECT_EQ(test::blush({"info", scene}).out.find("some light cannot be found") != std::string::npos, smooth);
     }
 }
 

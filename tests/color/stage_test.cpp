@@ -97,6 +97,16 @@ TEST(ExposureMeter, AverageBringsTheGeometricMeanToMiddleGrey) {
     EXPECT_EQ(average_exposure({}, 3), 0);
 }
 
+// Sunny 16: at f/16 and 1/100 s, ISO 100 film is well exposed at EV 14.64, where a meter with K = 12.5 reads 0.125 * 2^EV nits.
+TEST(CameraExposure, ShowsTheMeteredLuminanceAsMiddleGrey) {
+    const double ev = std::log2(16. * 16 * 100), nits = 0.125 * std::exp2(ev);
+    EXPECT_NEAR(nits * std::exp2(double(camera_exposure(16, 0.01f, 100))), 0.18, 1e-6);
+    const float stops = camera_exposure(8, 1 / 125.f, 100);
+    EXPECT_NEAR(camera_exposure(8, 1 / 125.f, 400), stops + 2, 1e-5) << "four times the sensitivity";
+    EXPECT_NEAR(camera_exposure(8, 1 / 500.f, 100), stops - 2, 1e-5) << "a quarter of the time";
+    EXPECT_NEAR(camera_exposure(4, 1 / 125.f, 100), stops + 2, 1e-5) << "four times the area";
+}
+
 TEST(ExposureMeter, HighlightsBringsThe99thPercentileToWhite) {
     EXPECT_NEAR(highlight_exposure(picture({{970, 0.1f}, {30, 8}}), 3), -3, 1e-6);
     EXPECT_NEAR(highlight_exposure(picture({{995, 0.25f}, {5, 1000}}), 3), 2, 1e-6) << "half a per cent of pixels is ignored";

@@ -1,4 +1,5 @@
 // Camera tab: lens, pose and exposure of the view. Navigation is not recorded as undo steps; lens edits are.
+#include "color/exposure_meter.h"
 #include "scene/animation/pose.h"
 #include "ui/panels/panels.h"
 #include "ui/transform/rotation.h"
@@ -111,7 +112,7 @@ void draw_frame(PanelContext& c) {
         settings.frame_aspect.reset();
         if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // index 0 is the camera's own aspect
     }
-    ImGui::BeginDisabled(frame.aspect <= 0);
+    ImGui::BeginDisabled(frame.aspect <= 0 || !c.ui.settings.follow_viewport);
     f.checkbox("Fit camera", frame.fit, "Render only the frame, as large as the window allows.");
     ImGui::EndDisabled();
     ImGui::BeginDisabled(!c.scene().nodes.contains(c.ui.home.camera));
@@ -121,31 +122,12 @@ void draw_frame(PanelContext& c) {
     if (settings != c.project().view) c.apply(SetView{settings});
 }
 
-// Middle grey, 0.18, is what a reflected-light meter with K = 12.5 cd/m2 s shows as medium (ISO 2720:1974). Returns the exposure
-// in stops.
-float exposure_of(float f_number, float seconds, float iso) {
-    constexpr float grey = 0.18f, metered = 0.125f; // nits at EV 0
-    return std::log2(grey / metered) - std::log2(f_number * f_number / seconds) + std::log2(iso / 100);
-}
-
-// Shutter time as cameras show it: fractions of a second below 1 s, seconds above.
-bool draw_shutter(Fields& f, float& per_second) {
-    constexpr float shortest = 1e-9f, longest = 1e9f;
-    constexpr const char* tip = "Exposure time. Below one second, enter the denominator: 125 means 1/125 s.";
-    if (per_second > 1)
-        return f.number("Shutter", per_second, {.min = 1, .max = 1 / shortest, .reset = 125, .unit = "s", .tip = tip, .format = "1/%.4g"});
-    float seconds = 1 / per_second;
-    if (!f.number("Shutter", seconds, {.min = shortest, .max = longest, .reset = 1 / 125.f, .unit = "s", .tip = tip})) return false;
-    per_second = 1 / seconds;
-    return true;
-}
-
 // Exposure as f-number, shutter time and ISO. If the exposure changes elsewhere, the shutter time is adapted.
 void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
     ExposureTriangle& t = c.ui.triangle;
     const float lens_f_number = f_number_of(c.scene().view.lens);
     float f_number = lens_f_number > 0 ? lens_f_number : t.f_number, iso = t.iso;
-    float per_second = std::exp2(exposure_of(f_number, 1, iso) - settings.exposure_ev);
+    float seconds = std::exp2(settings.exposure_ev - camera_exposure(f_number, 1, iso));
     bool changed = false;
     ImGui::BeginDisabled(lens_f_number > 0);
     changed |= f.number("f-number", f_number,
@@ -156,12 +138,19 @@ void draw_camera_exposure(PanelContext& c, Fields& f, ViewSettings& settings) {
                          .tip = "With a pinhole it sets only the exposure; otherwise it is the f-number of the lens.",
                          .format = "f/%.3g"});
     ImGui::EndDisabled();
-    changed |= draw_shutter(f, per_second);
+    changed |= f.number("Shutter", seconds,
+                        {.min = 1e-9f,
+                         .max = 1e9f,
+                         .reset = 1 / 125.f,
+                         .unit = "s",
+                         .step = seconds * 0.005f,
+                         .tip = "Exposure time in seconds. Type 1/125 or 0.008.",
+                         .fraction = true});
     changed |= f.number("ISO", iso, {.min = 1, .max = 1e7f, .reset = 100, .tip = "Sensitivity of the sensor or film.", .format = "%.0f"});
     if (!changed) return;
     if (lens_f_number <= 0) t.f_number = f_number;
     t.iso = iso;
-    settings.exposure_ev = std::clamp(exposure_of(f_number, 1 / per_second, iso), -20.f, 20.f);
+    settings.exposure_ev = std::clamp(camera_exposure(f_number, seconds, iso), -20.f, 20.f);
 }
 
 void draw_pose(PanelContext& c) {

@@ -62,7 +62,7 @@ const char* inspector_guide_page(const PanelContext& c) {
         const Node* node = c.scene().nodes.find(c.ui.selected);
         return node && node->light ? guide_page::light_units : guide_page::materials;
     }
-    case InspectorTab::camera: return guide_page::exposure;
+    case InspectorTab::camera: return guide_page::camera;
     case InspectorTab::environment: return guide_page::light_kinds;
     case InspectorTab::render: return guide_page::convergence;
     case InspectorTab::display: return guide_page::display;

@@ -64,6 +64,7 @@ void draw(PanelContext& c, const Cells& cells, float x) {
         ImGui::PushStyleColor(ImGuiCol_Text, cell.color);
         ImGui::TextUnformatted(cell.text.c_str());
         ImGui::PopStyleColor();
+        if (cell.color == tone::warning) c.ui.probe.record_last_item("Status/" + cell.text);
         tip_for_last_item(c.ui, cell.tip.c_str());
         x += width_of(cell);
     }

@@ -31,12 +31,13 @@ double clearance_of(const Scene& scene, const RayHit& hit) {
 std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
                                    std::string name) {
     const ViewRay ray = projection.ray(u, v);
+    const auto any = [](Id<Node>) { return true; };
     // The object id of the pixel, which may be visible through holes of other objects. At an edge the ray through the click may
-    // miss it.
+    // miss it, or meet another object before it.
     const Id<Node> shown = pick(frame, u, v).node;
     std::optional<RayHit> hit;
     if (shown) hit = cast_ray(scene, ray.origin, ray.direction, [&](Id<Node> id) { return id == shown; });
-    if (!hit) hit = cast_ray(scene, ray.origin, ray.direction, [](Id<Node>) { return true; });
+    if (!hit || first_occluder(scene, ray.origin, hit->position, any)) hit = cast_ray(scene, ray.origin, ray.direction, any);
     if (!hit) return {};
     LightMeter meter = meter_on(scene, hit->node, hit->position, hit->normal, std::move(name));
     meter.clearance = float(clearance_of(scene, *hit));

@@ -16,8 +16,8 @@ constexpr const char* light_units = "guide/lighting.html#units-and-colour";
 constexpr const char* light_table = "guide/lighting.html#light-table";
 constexpr const char* light_mix = "guide/light-mix.html";
 constexpr const char* materials = "guide/materials.html";
+constexpr const char* camera = "guide/camera.html";
 constexpr const char* display = "guide/display.html";
-constexpr const char* exposure = "guide/display.html#exposure-and-white-balance";
 constexpr const char* measuring = "guide/display.html#measuring-the-picture";
 constexpr const char* convergence = "guide/convergence.html";
 constexpr const char* chart = "guide/convergence.html#the-chart";
@@ -27,6 +27,6 @@ constexpr const char* comparison = "guide/snapshots.html#compare";
 
 constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,    viewport,  status_bar, file_browser,
                                docks,       light_kinds, light_units, light_table, light_mix, materials,  display,
-                               exposure,    measuring,   convergence, chart,       lab,       snapshots,  comparison};
+                               camera,      measuring,   convergence, chart,       lab,       snapshots,  comparison};
 
 } // namespace blush::guide_page

@@ -66,6 +66,10 @@ uint8_t byte_of(float linear) { return uint8_t(std::lround(std::clamp(srgb_from_
 
 std::string number_text(double value) { return fmt::format("{}", float(value) + 0.f); }
 
+std::string fraction_text(double value) {
+    return value > 0 && value < 1 ? fmt::format("1/{:.4g}", 1 / value) : fmt::format("{:.4g}", value);
+}
+
 std::string triple_text(const Vec3& v) { return number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z); }
 
 std::string hex_text(const Vec3& c) { return fmt::format("#{:02x}{:02x}{:02x}", byte_of(c.x), byte_of(c.y), byte_of(c.z)); }
@@ -79,6 +83,11 @@ std::optional<double> pasted_number(std::string_view text, std::string_view unit
     text = trimmed(text);
     if (!unit.empty() && text.ends_with(unit)) text = trimmed(text.substr(0, text.size() - unit.size()));
     if (const auto value = number_of(text)) return value;
+    if (const size_t slash = text.find('/'); slash != std::string_view::npos) {
+        const auto above = number_of(trimmed(text.substr(0, slash))), below = number_of(trimmed(text.substr(slash + 1)));
+        if (!above || !below || !std::isfinite(*above / *below)) return {};
+        return *above / *below;
+    }
     std::string pointed(text);
     if (std::ranges::count(pointed, ',') != 1) return {};
     std::ranges::replace(pointed, ',', '.');

@@ -9,8 +9,6 @@
 
 namespace blush {
 
-// The sRGB transfer functions.
-
 // The shortest text that parses to the same number: "0.25".
 std::string number_text(double value);
 // "0.8, 0.2, 0.05"
@@ -20,7 +18,10 @@ std::string hex_text(const Vec3& linear);
 // "srgb(0.9, 0.5, 0.25)", display-encoded.
 std::string srgb_text(const Vec3& linear);
 
-// Parses a finite number, optionally followed by the unit; accepts a decimal comma. nullopt for other text.
+// "1/125" below 1, with four digits.
+std::string fraction_text(double value);
+
+// Parses a finite number or a fraction, "1/125", optionally followed by the unit; accepts a decimal comma. nullopt for other text.
 std::optional<double> pasted_number(std::string_view text, std::string_view unit = {});
 // Parses three finite numbers, separated by commas, semicolons or blanks, optionally in brackets.
 std::optional<Vec3> pasted_triple(std::string_view text);

@@ -18,9 +18,9 @@ constexpr float label_share = 0.4f; // of a row's width
 
 float label_width() { return std::floor(ImGui::GetWindowContentRegionMax().x * label_share); }
 
-// "%.4g" and "m" -> "%.4g m"; a per cent sign is doubled.
-std::string format_with_unit(const NumberStyle& style) {
-    std::string format = style.format;
+// "%.4g" and "m" -> "%.4g m"; a per cent sign is doubled. A fraction is its own format: ImGui then does not round the value.
+std::string format_with_unit(float value, const NumberStyle& style) {
+    std::string format = style.fraction ? fraction_text(double(value)) : style.format;
     if (*style.unit) format += ' ';
     for (const char* c = style.unit; *c; ++c) format += *c == '%' ? "%%" : std::string(1, *c);
     return format;
@@ -36,6 +36,19 @@ float shown_value(float value, const char* format) {
 
 // In ImGui, Shift makes drags ten times faster; here they become ten times finer.
 float drag_speed(float speed) { return ImGui::GetIO().KeyShift ? speed / 100 : speed; }
+
+// Typed into a field that is shown as a fraction: ImGui itself would read "1/125" as 1.
+bool type_fraction(const char* name, ImGuiID id, float& value, const NumberStyle& style) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImRect box(low, {low.x + ImGui::CalcItemWidth(), low.y + ImGui::GetFrameHeight()});
+    ImGui::ItemSize(box, ImGui::GetStyle().FramePadding.y);
+    if (!ImGui::ItemAdd(box, id, nullptr, ImGuiItemFlags_Inputable)) return false;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s", fraction_text(double(value)).c_str());
+    const bool edited = ImGui::TempInputText(box, id, name, text, sizeof text, ImGuiInputTextFlags_CharsScientific);
+    const auto typed = edited ? pasted_number(text, style.unit) : std::nullopt;
+    return typed && std::exchange(value, float(*typed)) != value;
+}
 
 void draw_bar(float fraction, float width) {
     const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + width, low.y + ImGui::GetFrameHeight()};
@@ -112,7 +125,7 @@ bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle&
 bool Fields::number_field(const char* id, float& value, const NumberStyle& style) {
     const float width = ImGui::CalcItemWidth();
     const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
-    const std::string format = format_with_unit(style);
+    const std::string format = format_with_unit(value, style);
     float edited = shown_value(value, style.format);
     bool changed = false;
     if (style.bar) {
@@ -122,6 +135,8 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
             ImGui::PushStyleColor(c, ImVec4(0, 0, 0, 0));
         changed = ImGui::DragFloat(id, &edited, drag_speed((style.max - style.min) / width), style.min, style.max, format.c_str(), flags);
         ImGui::PopStyleColor(3);
+    } else if (style.fraction && ImGui::TempInputIsActive(ImGui::GetID(id))) {
+        changed = type_fraction(id, ImGui::GetID(id), edited, style);
     } else {
         const float speed = style.step > 0 ? style.step : std::max(std::abs(value) * 0.005f, 1e-4f);
         changed = ImGui::DragFloat(id, &edited, drag_speed(speed), style.min, style.max, format.c_str(), flags);

@@ -2,6 +2,7 @@
 #include "core/files.h"
 #include "core/memory_limit.h"
 #include "io/image/image_io.h"
+#include "io/image/jpeg_encoding.h"
 #include "io/image/oiio.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -89,10 +90,10 @@ bool is_rgb_of(std::span<const float> rgb, int width, int height) {
     return width >= 1 && height >= 1 && rgb.size() == size_t(width) * size_t(height) * 3;
 }
 
-OIIO::ImageSpec display_spec(int width, int height, const char* compression) {
+OIIO::ImageSpec png_spec(int width, int height) {
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("compression", compression);
+    spec.attribute("compression", "zip");
     return spec;
 }
 
@@ -122,11 +123,18 @@ void set_metadata(OIIO::ImageSpec& spec, const std::map<std::string, std::string
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
 }
 
-const char* display_format(const std::filesystem::path& file) {
+std::string extension_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    if (extension == ".png") return "png";
-    return extension == ".jpg" || extension == ".jpeg" ? "jpeg" : nullptr;
+    return extension;
+}
+
+// JPEG gets no metadata: its segments hold 64 KB.
+Result<void> write_jpeg(const std::filesystem::path& file, int width, int height, std::span<const float> rgb) {
+    if (const Result<void> fits = expect_jpeg_size(file, width, height); !fits) return fits.error();
+    const Result<std::vector<uint8_t>> encoded = encode_jpeg(file.string(), width, height, display_bytes(rgb));
+    if (!encoded) return encoded.error();
+    return write_file(file, *encoded);
 }
 
 } // namespace
@@ -134,7 +142,7 @@ const char* display_format(const std::filesystem::path& file) {
 Result<void> expect_jpeg_size(const std::filesystem::path& file, int width, int height) {
     if (std::max(width, height) > max_jpeg_side)
         return Error{file.string(), fmt::format("a JPEG has at most {} pixels a side, not {} x {}", max_jpeg_side, width, height), ""};
-    // Worst-case memory of the encoder and the file: libjpeg ends the process if allocation fails.
+    // Worst-case memory of the encoder and the file.
     const double needed = 8e6 + 16.0 * width * height;
     if (const MemoryLimit room = memory_limit(); needed > double(room.left))
         return Error{file.string(),
@@ -166,25 +174,23 @@ Result<void> write_exr(const std::filesystem::path& file, const LayeredImage& im
 Result<void> write_display_image(const std::filesystem::path& file, int width, int height, std::span<const float> rgb,
                                  const std::map<std::string, std::string>& metadata, std::span<const float> alpha) {
     return guarded(file.string(), [&]() -> Result<void> {
-        const char* format = display_format(file);
-        if (!format) return Error{file.string(), "not a .png or .jpg name", ""};
+        const std::string extension = extension_of(file);
+        const bool is_jpeg = extension == ".jpg" || extension == ".jpeg";
+        if (!is_jpeg && extension != ".png") return Error{file.string(), "not a .png or .jpg name", ""};
         if (!is_rgb_of(rgb, width, height))
             return Error{file.string(), "an image without pixels or of the wrong size cannot be written", ""};
-        const bool is_jpeg = format == std::string_view("jpeg");
-        if (is_jpeg)
-            if (const Result<void> fits = expect_jpeg_size(file, width, height); !fits) return fits.error();
+        if (is_jpeg) return write_jpeg(file, width, height, rgb);
         std::vector<uint8_t> bytes = display_bytes(rgb);
-        OIIO::ImageSpec spec = display_spec(width, height, is_jpeg ? "jpeg:95" : "zip");
-        if (!is_jpeg && !alpha.empty()) {
+        OIIO::ImageSpec spec = png_spec(width, height);
+        if (!alpha.empty()) {
             if (alpha.size() != rgb.size() / 3) return Error{file.string(), "an alpha of the wrong size cannot be written", ""};
             bytes = with_alpha(bytes, display_bytes(alpha));
             spec.nchannels = 4;
             spec.default_channel_names();
             spec.attribute("oiio:UnassociatedAlpha", 1);
         }
-        spec.attribute("jpeg:subsampling", "4:4:4"); // saturated edges keep their colour
-        if (!is_jpeg) set_metadata(spec, metadata);  // JPEG segments hold 64 KB; its encoder ends the process above that
-        return encode_to_file(file, format, spec, OIIO::TypeDesc::UINT8, bytes.data());
+        set_metadata(spec, metadata);
+        return encode_to_file(file, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
     });
 }
 
@@ -192,7 +198,7 @@ Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const f
     return guarded("picture.png", [&]() -> Result<std::vector<uint8_t>> {
         if (!is_rgb_of(rgb, width, height)) return Error{"", "an image without pixels or of the wrong size cannot be encoded", ""};
         const std::vector<uint8_t> bytes = display_bytes(rgb);
-        return encode("picture.png", "png", display_spec(width, height, "zip"), OIIO::TypeDesc::UINT8, bytes.data());
+        return encode("picture.png", "png", png_spec(width, height), OIIO::TypeDesc::UINT8, bytes.data());
     });
 }
 

@@ -262,6 +262,21 @@ type_into() {
     type_text "$2"
     hold Return
 }
+# type_number FIELD NUMBER: after a double-click, as fields of numbers need.
+type_number() {
+    double_click "$1"
+    type_text "$2"
+    hold Return
+}
+# expect_number FIELD NUMBER: what Ctrl+C copies from it, to a thousandth.
+expect_number() {
+    local copied
+    point_at_widget "$1"
+    press ctrl+c
+    until_true 10 says "Copied" || fail "$1 cannot be copied"
+    copied=$(sed -n '1s/.*"toast":"Copied \([-0-9.e]*\).*/\1/p' "$probe")
+    echo "$copied $2" | awk '{ d = $1 - $2; exit !(d * d < 1e-6) }' || fail "$1 is $copied, not $2"
+}
 # enter_path PATH: into the file browser.
 enter_path() {
     until_true 30 has_widget "Browser/Path" || fail "no file browser opens"
@@ -278,6 +293,15 @@ holding() {
     for key in "${keys[@]}"; do input 1 xdotool keydown "$key"; done
     "$@"
     for key in "${keys[@]}"; do input 1 xdotool keyup "$key"; done
+}
+# mean PICTURE: mean display luminance. clipped PICTURE: fraction of its pixels with a channel at white.
+mean() { convert "$1" -colorspace Gray -format '%[fx:mean]' info:; }
+clipped() { convert "$1" -depth 8 txt:- | awk -F'[(),]' 'NR > 1 { ++n; if ($3 >= 255 || $4 >= 255 || $5 >= 255) ++c } END { print c / n }'; }
+# A banner covers the middle of the picture: it is closed first.
+well_exposed() {
+    local m c
+    m=$(mean "$1") c=$(clipped "$1")
+    awk -v m="$m" -v c="$c" 'BEGIN { exit !(m >= 0.1 && m <= 0.6 && c < 0.05) }' || fail "$1 has a mean of $m, and $c of it is clipped"
 }
 # Number of pixels in which two pictures differ.
 differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }

@@ -247,6 +247,32 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
 }
 
 // The Specialisation section has a line per unused feature; used features are below a collapsed heading.
+TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFound) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_status.json";
+    ui.probe = Probe(file);
+    Document document;
+    for (const char* reason : {"", "some light cannot be found: that of point lights"}) {
+        auto made = std::make_shared<Frame>();
+        made->width = made->height = made->divider = 1;
+        made->rgba.assign(4, 1);
+        made->missing_light = reason;
+        frame = made;
+        ui.probe.begin_frame();
+        ImGui::NewFrame();
+        ImGui::SetNextWindowSize({1280, 30}); // room for all cells
+        ImGui::Begin("status");
+        PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+        draw_status_bar(c);
+        ImGui::End();
+        ImGui::EndFrame();
+        ui.probe.end_frame({});
+        std::ifstream in(file);
+        const std::string written{std::istreambuf_iterator<char>(in), {}};
+        EXPECT_EQ(written.find("Status/some light cannot be found") != std::string::npos, *reason != 0) << written;
+    }
+    std::filesystem::remove(file);
+}
+
 TEST_F(Panels, EachUnusedFeatureHasALine) {
     Document document;
     ui.settings.panels["section.Specialisation"] = 1;

@@ -25,6 +25,16 @@ TEST(ValueText, AcceptsUnitsBlanksAndCommas) {
     EXPECT_FALSE(pasted_number(std::string(200, '1')));
 }
 
+TEST(ValueText, FractionsRoundTrip) {
+    EXPECT_EQ(fraction_text(1 / 125.), "1/125");
+    EXPECT_EQ(fraction_text(0.3), "1/3.333");
+    EXPECT_EQ(fraction_text(1), "1");
+    EXPECT_EQ(fraction_text(2.5), "2.5");
+    EXPECT_EQ(pasted_number("1/125"), 1 / 125.);
+    EXPECT_EQ(pasted_number(" 1 / 8000 s", "s"), 1 / 8000.);
+    for (const char* text : {"/", "1/", "/125", "1/0", "0/0", "1/2/3", "1/x"}) EXPECT_FALSE(pasted_number(text)) << text;
+}
+
 TEST(ValueText, AcceptsTriplesInBrackets) {
     const Vec3 wanted{1, -2.5f, 0.25f};
     for (const char* text : {"1, -2.5, 0.25", "[1.0, -2.5, .25]", "(1 -2.5 0.25)", "1;-2.5;0.25", "{1,\t-2.5,\n0.25}"})

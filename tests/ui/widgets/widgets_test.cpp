@@ -268,6 +268,29 @@ TEST_F(Widgets, DoubleClickStartsTyping) {
     EXPECT_EQ(document.undo_labels().size(), 2u);
 }
 
+TEST_F(Widgets, FractionsAreTypedAsShown) {
+    style = {.min = 1e-9f, .max = 1e9f, .unit = "s", .fraction = true};
+    const auto type_in = [&](const std::string& text) {
+        rest();
+        move(middle());
+        for (const bool down : {true, false, true, false}) press(down);
+        type(text);
+        enter();
+    };
+    type_in("1/125");
+    EXPECT_EQ(value(), 1 / 125.f);
+    type_in("2.5");
+    EXPECT_EQ(value(), 2.5f) << "seconds";
+    type_in("0.004");
+    EXPECT_EQ(value(), 0.004f);
+    for (const char* incomplete : {"1/", "1/0", "/"}) type_in(incomplete);
+    EXPECT_EQ(value(), 0.004f);
+    EXPECT_EQ(document.undo_labels().size(), 3u) << "each is one undo step";
+    style.step = 0.005f;
+    drag(60);
+    EXPECT_NEAR(value(), 0.304f, 1e-5) << "dragged without being rounded to its digits";
+}
+
 TEST_F(Widgets, TabMovesToTheNextField) {
     constexpr int tab = 258;
     ImGui::GetIO().KeyMap[ImGuiKey_Tab] = tab;
