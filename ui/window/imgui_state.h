@@ -5,6 +5,9 @@
 namespace blush {
 
 bool any_popup_open();
+// Arrow keys, Enter and Space work in menus, combo boxes and other popups, as long as one is open; otherwise they are shortcuts.
+// Modal dialogs handle keys themselves. Call it before ImGui::NewFrame().
+void navigate_popups_by_keys();
 // Closes the most recent popup. False if none is open.
 bool close_top_popup();
 
