@@ -43,9 +43,13 @@ bool close_top_popup() {
 }
 
 bool needs_another_frame() {
-    const ImGuiContext& g = *ImGui::GetCurrentContext();
+    ImGuiContext& g = *ImGui::GetCurrentContext();
     // Neither a pending request for the keyboard nor a field that has just got it is seen in the draw data.
     if (g.NavMoveSubmitted || (g.WantTextInputNextFrame == 1) != g.IO.WantTextInput) return true;
+    for (int i = 0; i < g.TabBars.GetMapSize(); ++i) {
+        const ImGuiTabBar* const tabs = g.TabBars.TryGetMapData(i);
+        if (tabs && tabs->CurrFrameVisible == g.FrameCount && tabs->ScrollingAnim != tabs->ScrollingTarget) return true;
+    }
     return std::any_of(g.Windows.begin(), g.Windows.end(),
                        [](const ImGuiWindow* w) { return w->Active && w->HiddenFramesCannotSkipItems > 0; });
 }

@@ -11,8 +11,8 @@ void navigate_popups_by_keys();
 // Closes the most recent popup. False if none is open.
 bool close_top_popup();
 
-// True if the frame that was just built needs another one to have its effect: a new window is only measured yet and not shown, or the
-// keyboard goes to a text field. Call it before ImGui::Render() or after.
+// True if the frame that was just built needs another one to have its effect: a new window is only measured yet and not shown, the
+// keyboard goes to a text field, or a row of tabs scrolls. Call it before ImGui::Render() or after.
 bool needs_another_frame();
 
 } // namespace blush
