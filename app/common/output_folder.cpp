@@ -21,7 +21,7 @@ std::filesystem::path output_folder(const std::filesystem::path& chosen, const s
     if (!chosen.empty()) return chosen;
     const std::filesystem::path beside = scene_file.parent_path();
     if (!beside.empty() && !is_below(scene_file, assets) && access(beside.c_str(), W_OK) == 0) return beside;
-    const std::filesystem::path pictures = user_folder("XDG_PICTURES_DIR", "Pictures");
+    const std::filesystem::path pictures = named_user_folder("XDG_PICTURES_DIR", "Pictures");
     return pictures.empty() ? beside : pictures;
 }
 

@@ -6,6 +6,7 @@
 #include "app/editor/editor_commands.h"
 #include "app/editor/editor_convergence.h"
 #include "app/editor/editor_display.h"
+#include "app/editor/editor_messages.h"
 #include "app/editor/editor_panels.h"
 #include "app/editor/editor_snapshots.h"
 #include "app/editor/guide.h"
@@ -103,6 +104,7 @@ private:
     EditorConvergence convergence_;
     LiveMix mix_;
     OneShotMetering metering_;
+    EditorMessages messages_;
     StartPage opening_page_{options_.assets, &Window::wake};
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
@@ -115,7 +117,6 @@ private:
     bool instruments_recalled_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
-    std::string last_not_continued_;                                              // last message
     Clock::time_point frame_begin_{};
 };
 
@@ -183,6 +184,7 @@ void Editor::poll() {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
             submitted_ = nullptr; // a new scene is always submitted
+            messages_.opened();
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.load_strip(ui_, files_.scene_file());
             if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
@@ -416,15 +418,10 @@ void Editor::latest() {
     if (!shows_preview()) convergence_.update(ui_.convergence, pictures_);
     if (pictures_.frame && pictures_.frame->revision == submitted_revision() && !files_.preview()) {
         metering_.update(document_, pictures_.frame, ui_, color_);
+        messages_.update(*pictures_.frame, document_.project().scene, ui_.toasts);
         opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
     }
-    const SessionStatus status = session_.status();
-    if (std::exchange(last_not_continued_, status.restart_reason) != status.restart_reason && !status.restart_reason.empty())
-        ui_.toasts.warn("The snapshot is rendered from the start", status.restart_reason);
-    const std::string& failure = status.denoiser_failure;
-    if (failure.empty() || !ui_.denoise.wants_denoised()) return;
-    ui_.denoise.show = DenoiseView::Show::raw;
-    ui_.toasts.fail("The image cannot be denoised", failure);
+    messages_.update(session_.status(), ui_);
 }
 
 void Editor::draw() {

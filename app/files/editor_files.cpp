@@ -203,6 +203,28 @@ void EditorFiles::reset_document(Document& document, UiState& ui, Project projec
     document.mark_saved(); // not an edit of the user
 }
 
+// None if the document's scene is to be replaced.
+std::optional<EditorFiles::KeptEdits> EditorFiles::edits_on(Opened& opened, const Document& document, const UiState& ui) const {
+    if (purpose_ != Purpose::reload || !keep_edits_) return {};
+    const bool modified = document.modified();
+    if (ui.studio_banner && !modified) return {}; // the studio is anew: the file may have lights by now
+    const Scene& theirs = opened.imported.scene;
+    const bool saved_edits_are_gone = written_by_blush_ && !has_our_settings(opened.imported);
+    // Edits are relative to the scene as another program wrote it, or else to the scene as opened.
+    Scene base = imported_;
+    std::string heading;
+    if (saved_edits_are_gone) {
+        base = exported_ ? *exported_ : without_lighting_missing_in(theirs, imported_);
+        heading = exported_ ? "Another program has written this file: the edits that Blush had saved in it are kept"
+                            : "Another program has written this file: the lights and the environment that Blush had saved in it are "
+                              "kept, other saved edits are not";
+        heading += "; save the scene to write them again";
+    }
+    MergedEdits merged = merge_edits(base, document.project().scene, theirs);
+    list_conflicts(merged.conflicts, heading, opened.imported.report);
+    return KeptEdits{std::move(merged.scene), modified || saved_edits_are_gone};
+}
+
 EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui, Result<Opened> opened) {
     const bool cancelled = import_job_->cancelled();
     import_job_.reset();
@@ -212,12 +234,7 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
         ui.toasts.fail(opened.error().text());
         return {};
     }
-    // Edits are relative to the scene that was opened.
-    std::optional<MergedEdits> merged;
-    if (purpose_ == Purpose::reload && keep_edits_) {
-        merged = merge_edits(imported_, document.project().scene, opened->imported.scene);
-        list_conflicts(merged->conflicts, {}, opened->imported.report);
-    }
+    std::optional<KeptEdits> kept = edits_on(*opened, document, ui);
     report(ui, importing_, opened->imported.report);
     if (purpose_ == Purpose::merge) {
         const auto done = document.apply(Import{opened->scene, importing_.stem().string()});
@@ -229,9 +246,14 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     origin_ = opened->imported.origin;
     origin_.file = importing_;
     written_by_blush_ = has_our_settings(opened->imported);
+    if (!written_by_blush_)
+        exported_ = imported_;
+    else if (purpose_ == Purpose::open)
+        exported_.reset();
+    if (purpose_ == Purpose::open) opened_in_studio_ = opened->lit.has_value();
     if (purpose_ == Purpose::reload) {
         project.scene.view = document.project().scene.view;
-        ui.selected = same_node(document.project().scene, ui.selected, merged ? merged->scene : project.scene);
+        ui.selected = same_node(document.project().scene, ui.selected, kept ? kept->scene : project.scene);
     } else {
         save_scene_ui(ui, scene_file_.string(), ui.settings);
         scene_file_ = importing_;
@@ -243,14 +265,15 @@ EditorFiles::Finished EditorFiles::finish_import(Document& document, UiState& ui
     ui.placing_by = PlacingBy::hand;
     ui.light_table.renaming = {};
     watch_.watch(scene_file_, importing_since_);
-    reset_document(document, ui, std::move(project), purpose_ == Purpose::open ? std::move(opened->lit) : std::nullopt);
+    reset_document(document, ui, std::move(project), opened_in_studio_ && !kept ? std::move(opened->lit) : std::nullopt);
     if (purpose_ == Purpose::open) begin_at_camera(ui, document.project(), std::move(opened->camera_aspects));
     if (purpose_ == Purpose::open) restore_scene_ui(ui.settings, scene_file_.string(), document.project().scene, ui);
-    if (merged) {
+    if (kept) {
         // Undo returns to the unedited file.
         Project edited = document.project();
-        edited.scene = std::move(merged->scene);
+        edited.scene = std::move(kept->scene);
         document.replace(std::move(edited), "Reload with edits");
+        if (!kept->unsaved) document.mark_saved();
     }
     if (opened->recovered) document.replace(*std::move(opened->recovered), "Recover unsaved edits");
     const bool stored = purpose_ != Purpose::open || (opened->imported.view && !keep_view_) || opened->recovered;
@@ -320,7 +343,7 @@ void EditorFiles::look_at_scene_file(const Document& document, UiState& ui) {
     if (now < next_look_) return;
     next_look_ = now + std::chrono::seconds(1);
     if (import_job_ || save_job_ || !watch_.changed()) return;
-    if (!document.modified()) return reload(false);
+    if (!document.modified()) return reload(true);
     ui.toasts.add({Toast::Kind::warning, scene_file_.filename().string() + " has changed on disk",
                    "Reload it to see the changes. Your edits can be kept.", Command::reload});
 }

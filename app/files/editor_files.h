@@ -64,7 +64,8 @@ public:
     // report lists conflicts.
     void recover(const Sidecar& sidecar) { start_import(sidecar.scene, Purpose::open, {}, sidecar); }
     void import_scene(const std::filesystem::path& file) { start_import(file, Purpose::merge); }
-    // Reloads the file; `keep_edits`: and reapplies the edits of this session, as one undo step.
+    // Reloads the file; `keep_edits`: and reapplies the edits, as one undo step. Keep them also if there is nothing to save: a studio
+    // at opening is no edit to save, and another program may have overwritten saved edits.
     void reload(bool keep_edits) {
         keep_edits_ = keep_edits;
         start_import(scene_file_, Purpose::reload);
@@ -122,6 +123,12 @@ private:
                       const std::optional<Sidecar>& sidecar = {});
     static Result<Opened> import_file(const std::filesystem::path& file, const OpenOptions& options, const std::optional<Sidecar>& sidecar,
                                       JobProgress& progress, std::function<void(const ImportedScene&)> on_preview_scene);
+    // The edited scene on top of a reloaded file.
+    struct KeptEdits {
+        Scene scene;
+        bool unsaved = false; // the file lacks some
+    };
+    std::optional<KeptEdits> edits_on(Opened& opened, const Document& document, const UiState& ui) const;
     // Settings of the document when this file is open.
     Project opened_project(const Opened& opened, const Project& before) const;
     // Makes the scene the document, with the studio lighting as an undo step of its own if the file has no light.
@@ -137,6 +144,8 @@ private:
     Scene imported_; // as imported from the file: snapshots save edits relative to it
     GltfOrigin origin_;
     bool written_by_blush_ = false;
+    std::optional<Scene> exported_; // as another program last wrote the file; none: not known
+    bool opened_in_studio_ = false;
     FileWatch watch_;
     std::chrono::steady_clock::time_point next_look_{};
 

@@ -97,7 +97,7 @@ void EditorSaving::before_losing_edits(const std::string& doing, std::function<v
 }
 
 void EditorSaving::before_reloading(std::function<void(bool keep_edits)> go_on) {
-    if (!document_.modified()) return go_on(false);
+    if (!document_.modified()) return go_on(true);
     ask({fmt::format("Reload {} and keep your edits?", files_.scene_file().filename().string()),
          "Edits are reapplied to objects, materials and lights with the same name. On conflicts your edit is kept, and the "
          "import report lists it. Undo returns to the file's version.",

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fstream>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -141,6 +142,26 @@ std::filesystem::path user_folder(const char* variable, const char* below_home) 
     if (const auto named = folder(variable); named.is_absolute()) return named;
     if (const auto home = folder("HOME"); !home.empty()) return home / below_home;
     return {};
+}
+
+std::filesystem::path named_user_folder(const std::string& variable, const char* below_home) {
+    const char* const given = std::getenv(variable.c_str());
+    if (given && std::filesystem::path(given).is_absolute()) return given;
+    // A shell file of lines such as XDG_DESKTOP_DIR="$HOME/Desktop"; the value is relative to $HOME or absolute.
+    std::ifstream dirs(user_folder("XDG_CONFIG_HOME", ".config") / "user-dirs.dirs");
+    const std::string begin = variable + "=\"", home = "$HOME/";
+    for (std::string line; std::getline(dirs, line);) {
+        const size_t end = line.rfind('"');
+        if (!line.starts_with(begin) || end < begin.size()) continue;
+        std::string value;
+        for (size_t i = begin.size(); i < end; ++i) {
+            if (line[i] == '\\' && i + 1 < end) ++i;
+            value += line[i];
+        }
+        if (value.starts_with(home)) return user_folder("HOME", "") / value.substr(home.size());
+        if (std::filesystem::path(value).is_absolute()) return value;
+    }
+    return user_folder(variable.c_str(), below_home);
 }
 
 } // namespace blush

@@ -23,5 +23,8 @@ Result<void> write_file(const std::filesystem::path& file, std::string_view text
 // XDG base directory: the folder of the environment variable (XDG_CONFIG_HOME, XDG_CACHE_HOME, XDG_STATE_HOME), or else
 // `below_home` in $HOME. Relative paths are ignored, as the specification requires. Empty if neither is set.
 std::filesystem::path user_folder(const char* variable, const char* below_home);
+// Folder of the user, such as XDG_DESKTOP_DIR: as in the environment, or else as xdg-user-dirs has written it into user-dirs.dirs,
+// or else `below_home` in $HOME.
+std::filesystem::path named_user_folder(const std::string& variable, const char* below_home);
 
 } // namespace blush

@@ -1,6 +1,7 @@
 // A finished image, never modified after publishing; shared by the session and its readers.
 #pragma once
 
+#include "core/result.h"
 #include "core/vec.h"
 #include "render/compile/feature_report.h"
 #include "render/diagnostics/health.h"
@@ -84,7 +85,8 @@ struct Frame {
     ErrorEstimate error;
     int64_t error_samples = 0;
     double error_at = 0;
-    std::string missing_light; // user message; empty if all light can be found (missing_light.h)
+    std::string missing_light;                               // user message; empty if all light can be found (missing_light.h)
+    std::shared_ptr<const std::vector<Diagnostic>> warnings; // of the compiled scene; null: not rendered from one
     Health health;
     ClampReport clamp;
     RayCounts rays;

@@ -427,6 +427,7 @@ void Renderer::resolve(Frame& frame) {
     frame.kernel = s.kernel_name;
     frame.feature_report = feature_report();
     frame.missing_light = s.scene.missing_light();
+    frame.warnings = s.scene.warnings();
 }
 
 Frame Renderer::resolve() {

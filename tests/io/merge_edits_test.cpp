@@ -6,6 +6,7 @@
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
+#include <map>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -179,6 +180,45 @@ TEST(MergeEdits, LeaveNoDanglingReferences) {
         }
         EXPECT_TRUE(validate(merge_edits(imported.scene, here.project().scene, there.project().scene).scene)) << i;
     }
+}
+
+// Another program writes its own version over a file that Blush has saved, and the scene before is not known.
+TEST(MergeEdits, LightingThatAnotherProgramDropsIsKept) {
+    const File exported(2);
+    File saved;
+    Light softbox;
+    softbox.name = "Softbox";
+    const Id<Light> light = saved.scene.lights.add(softbox);
+    Node rig{.name = "Rig"};
+    rig.local.translation = {0, 5, 0};
+    const Id<Node> parent = saved.scene.nodes.add(rig);
+    Node on_rig{.name = "Softbox"};
+    on_rig.parent = parent;
+    on_rig.light = light;
+    saved.scene.nodes.add(on_rig);
+    Node on_vase = *saved.scene.nodes.find(saved.vase); // an object of both files
+    Light glow;
+    glow.name = "Glow";
+    on_vase.light = saved.scene.lights.add(glow);
+    saved.scene.nodes.set(saved.vase, on_vase);
+    saved.scene.environment.kind = Environment::Kind::constant;
+    saved.scene.environment.intensity = 3;
+    saved.tint({1, 0, 0});
+    const Scene base = without_lighting_missing_in(exported.scene, saved.scene);
+    const MergedEdits merged = merge_edits(base, saved.scene, exported.scene);
+    EXPECT_TRUE(validate(merged.scene));
+    EXPECT_EQ(merged.conflicts, std::vector<std::string>{});
+    std::map<std::string, Id<Node>> nodes;
+    for (const auto& [id, node] : merged.scene.nodes) nodes[node.name] = id;
+    const Node* kept = merged.scene.nodes.find(nodes["Softbox"]);
+    ASSERT_TRUE(kept && kept->light);
+    EXPECT_EQ(merged.scene.lights.find(kept->light)->name, "Softbox");
+    EXPECT_EQ(kept->parent, nodes["Rig"]);
+    ASSERT_TRUE(merged.scene.nodes.find(nodes["Vase"])->light);
+    EXPECT_EQ(merged.scene.lights.find(merged.scene.nodes.find(nodes["Vase"])->light)->name, "Glow");
+    EXPECT_EQ(merged.scene.lights.size(), exported.scene.lights.size() + 2);
+    EXPECT_EQ(merged.scene.environment.intensity, 3);
+    EXPECT_EQ(merged.scene.materials, exported.scene.materials) << "what the other program writes is taken from it";
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
 
 namespace blush {
@@ -113,7 +114,7 @@ bool PlaceTool::update(PanelContext& c, ImDrawList& draw, const Projection& proj
         node_ = c.ui.selected;
     }
     if (by_ == PlacingBy::hand) return false;
-    draw_hint(draw, hint(light->name.empty() ? "the light" : light->name));
+    draw_hint(draw, hint(light->name.empty() ? "the light" : elided(light->name, max_name_width())));
     const auto spot = hovered || dragging_ ? spot_under_mouse(c, projection, image) : std::nullopt;
     const bool pressed = hovered && !dragging_ && plain_click();
     if (pressed && spot) press(c, *spot);

@@ -11,8 +11,11 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <imgui_internal.h> // ends the edit of the path
 #include <imgui_stdlib.h>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -38,7 +41,7 @@ void finish(PanelContext& c, const std::filesystem::path& path) {
 void take_typed(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
-    const std::filesystem::path path = std::filesystem::absolute(b.typed, unreadable);
+    const std::filesystem::path path = meant_path(b.typed, b.folder);
     if (std::filesystem::is_directory(path, unreadable))
         enter(b, path);
     else if (b.use == Use::save_scene && std::filesystem::is_directory(path.parent_path(), unreadable))
@@ -49,10 +52,45 @@ void take_typed(PanelContext& c) {
         c.ui.toasts.fail("File not found: " + b.typed);
 }
 
+// Opens the selected file or folder.
+void take_chosen(PanelContext& c) {
+    FileBrowser& b = *c.ui.browser;
+    std::error_code unreadable;
+    const std::filesystem::path path = b.folder / b.chosen;
+    if (std::filesystem::is_directory(path, unreadable))
+        enter(b, path);
+    else if (b.use == Use::save_scene)
+        take_typed(c);
+    else
+        finish(c, path);
+}
+
+void choose(FileBrowser& b, const FileEntry& entry) {
+    b.chosen = entry.name;
+    if (!entry.folder || b.use != Use::save_scene) b.typed = (b.folder / entry.name).string(); // the name of the file to save is kept
+}
+
+// Up and Down select in the list, from the path field as well.
+void choose_by_arrows(FileBrowser& b, const std::vector<FileEntry>& entries) {
+    const int step = int(ImGui::IsKeyPressed(key::down)) - int(ImGui::IsKeyPressed(key::up));
+    if (step == 0 || entries.empty()) return;
+    const auto at = std::ranges::find(entries, b.chosen, &FileEntry::name);
+    const ptrdiff_t last = std::ssize(entries) - 1;
+    const ptrdiff_t next = at == entries.end() ? (step > 0 ? 0 : last) : std::clamp(at - entries.begin() + step, ptrdiff_t(0), last);
+    ImGui::ClearActiveID(); // Enter now opens what is selected
+    choose(b, entries[size_t(next)]);
+    b.scroll_to_chosen = true;
+}
+
+bool enter_opens_chosen(const FileBrowser& b) {
+    const bool pressed = ImGui::IsKeyPressed(key::enter, false) || ImGui::IsKeyPressed(key::pad_enter, false);
+    return pressed && !ImGui::GetIO().WantTextInput && !b.chosen.empty();
+}
+
 // Tab completes the path.
 int complete(ImGuiInputTextCallbackData* data) {
     const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
-    const std::string completed = completed_path(std::string(data->Buf, size_t(data->BufTextLen)), filter_of(b.use));
+    const std::string completed = completed_path(meant_path({data->Buf, size_t(data->BufTextLen)}, b.folder).string(), filter_of(b.use));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, completed.c_str());
     return 0;
@@ -139,10 +177,8 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     c.ui.probe.record_last_item("Browser/" + entry.name);
     if (shown != entry.name) tip_for_last_item(c.ui, entry.name.c_str());
     const bool twice = clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    if (clicked && !entry.folder) {
-        b.chosen = entry.name;
-        b.typed = (b.folder / entry.name).string();
-    }
+    if (b.chosen == entry.name && std::exchange(b.scroll_to_chosen, false)) ImGui::SetScrollHereY();
+    if (clicked && !entry.folder) choose(b, entry);
     ImGui::TableNextColumn();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (height - ImGui::GetTextLineHeight()) / 2);
     if (!entry.folder) ImGui::TextDisabled("%s", bytes_text(entry.bytes).c_str());
@@ -154,6 +190,7 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
 
 void draw_list(PanelContext& c, float height) {
     const auto list = list_folder(c.ui.browser->folder, filter_of(c.ui.browser->use));
+    if (list) choose_by_arrows(*c.ui.browser, list->entries);
     ImGui::BeginChild("list", {0, height}, true);
     if (!list)
         ImGui::TextWrapped("%s", list.error().text().c_str());
@@ -188,11 +225,12 @@ void draw_buttons(PanelContext& c) {
     ImGui::SameLine();
     if (b.use == Use::save_scene) {
         std::error_code unreadable;
-        if (ImGui::Button(std::filesystem::is_regular_file(b.typed, unreadable) ? "Replace" : "Save", {width, 0})) take_typed(c);
+        if (ImGui::Button(std::filesystem::is_regular_file(meant_path(b.typed, b.folder), unreadable) ? "Replace" : "Save", {width, 0}))
+            take_typed(c);
     } else {
         const bool folder = b.use == Use::snapshot_folder;
         ImGui::BeginDisabled(!folder && b.chosen.empty());
-        if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) finish(c, folder ? b.folder : b.folder / b.chosen);
+        if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) folder ? finish(c, b.folder) : take_chosen(c);
         ImGui::EndDisabled();
     }
     if (c.ui.browser) c.ui.probe.record_last_item("Browser/OK");
@@ -221,6 +259,7 @@ void draw_file_browser(PanelContext& c) {
         if (c.ui.browser) draw_places(c, em * 9, height);
         ImGui::SameLine();
         if (c.ui.browser) draw_list(c, height);
+        if (c.ui.browser && enter_opens_chosen(*c.ui.browser)) take_chosen(c);
         if (c.ui.browser) draw_buttons(c);
         if (c.ui.browser && ImGui::IsKeyPressed(key::escape)) {
             c.ui.browser.reset();

@@ -31,7 +31,6 @@ void draw_gizmo_bar(PanelContext& c, const Region& picture) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::SetNextWindowBgAlpha(0.6f);
     if (ImGui::Begin("##gizmos", nullptr, flags)) {
-        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         TransformView& view = c.ui.transform;
         const auto choose = [&](TransformMode mode, const char* name, Icon icon, Command key) {
             const std::string tip =

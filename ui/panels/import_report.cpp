@@ -1,4 +1,5 @@
-// Import report panel: supported, approximated and ignored glTF features, and warnings with their place in the file.
+// Import report panel: supported, approximated and ignored glTF features, and warnings with their place in the file; below them
+// the warnings about the scene as it is rendered now.
 #include "io/gltf/read/import.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/widgets.h"
@@ -21,13 +22,19 @@ void draw_extensions(const char* verdict, const std::vector<std::string>& names)
 }
 
 // The finding on one line, its place in the file below.
-void draw_findings(PanelContext& c, const char* title, const ImportReport& report, Diagnostic::Severity severity) {
-    if (std::ranges::count(report.diagnostics, severity, &Diagnostic::severity) == 0 || !section(c.ui, title)) return;
-    for (const Diagnostic& d : report.diagnostics) {
+void draw_findings(PanelContext& c, const char* title, const std::vector<Diagnostic>& all, Diagnostic::Severity severity) {
+    if (std::ranges::count(all, severity, &Diagnostic::severity) == 0 || !section(c.ui, title)) return;
+    for (const Diagnostic& d : all) {
         if (d.severity != severity) continue;
         ImGui::TextWrapped("%s", d.what.c_str());
         if (!d.where.empty()) quiet_text(d.where);
     }
+}
+
+// Of the scene with its edits, in contrast to the file.
+void draw_scene_warnings(PanelContext& c) {
+    if (!c.frame || !c.frame->warnings) return;
+    draw_findings(c, "Scene as rendered", *c.frame->warnings, Diagnostic::Severity::warning);
 }
 
 void draw_report(PanelContext& c, const ImportReport& report) {
@@ -37,8 +44,8 @@ void draw_report(PanelContext& c, const ImportReport& report) {
         draw_extensions("Approximated", report.extensions_approximated);
         draw_extensions("Ignored", report.extensions_ignored);
     }
-    draw_findings(c, "Warnings", report, Diagnostic::Severity::warning);
-    draw_findings(c, "Notes", report, Diagnostic::Severity::note);
+    draw_findings(c, "Warnings", report.diagnostics, Diagnostic::Severity::warning);
+    draw_findings(c, "Notes", report.diagnostics, Diagnostic::Severity::note);
     if (report.diagnostics.empty()) quiet_text("Everything in the file is supported.");
 }
 
@@ -47,6 +54,7 @@ void draw_report(PanelContext& c, const ImportReport& report) {
 void draw_import_report(PanelContext& c) {
     if (!c.ui.import_report.report) return quiet_text("No file opened yet.");
     draw_report(c, *c.ui.import_report.report);
+    draw_scene_warnings(c);
 }
 
 } // namespace blush

@@ -3,12 +3,15 @@
 
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
+#include "ui/window/imgui_state.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <filesystem>
 #include <fmt/format.h>
-#include <imgui.h>
+#include <imgui_internal.h> // the request of an arrow key
+#include <iterator>
+#include <string_view>
 
 namespace blush {
 namespace {
@@ -43,12 +46,28 @@ void draw_demos(PanelContext& c) {
     ImGui::EndMenu();
 }
 
+constexpr const char* menus[] = {"File", "Edit", "Lights", "View", "Window", "Help"};
+
+// Left and Right go on to the neighbouring menu. ImGui closes a menu if they lead to nothing in it, such as a submenu.
+void turn_to_neighbour(MenuBarView& bar) {
+    constexpr int count = int(std::size(menus));
+    bar.to_open = bar.turn != 0 && !any_popup_open() ? (bar.open + bar.turn + count) % count : -1;
+    bar.turn = bar.open >= 0 ? int(ImGui::IsKeyPressed(key::right)) - int(ImGui::IsKeyPressed(key::left)) : 0;
+    bar.open = -1;
+    if (bar.to_open >= 0) ImGui::NavMoveRequestCancel(); // ImGui's own, which goes on along the bar and would close the menu
+}
+
 bool begin_menu(PanelContext& c, const char* name) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(name);
     c.ui.probe.record(std::string("Menu bar/") + name, {at.x, at.y, size.x, ImGui::GetFrameHeight()});
     // A menu that is taller than the window scrolls. The status bar stays visible.
     ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - 2.5f * ImGui::GetFrameHeight()});
-    return ImGui::BeginMenu(name);
+    MenuBarView& bar = c.ui.menu_bar;
+    const int index = int(std::ranges::find(menus, std::string_view(name)) - std::begin(menus));
+    if (bar.to_open == index) ImGui::OpenPopup(name);
+    const bool open = ImGui::BeginMenu(name);
+    if (open) bar.open = index;
+    return open;
 }
 
 void draw_file_menu(PanelContext& c) {
@@ -171,6 +190,7 @@ void draw_view_menu(PanelContext& c) {
 } // namespace
 
 void draw_menu_bar(PanelContext& c) {
+    turn_to_neighbour(c.ui.menu_bar);
     if (begin_menu(c, "File")) {
         draw_file_menu(c);
         ImGui::EndMenu();

@@ -21,19 +21,37 @@ void draw_texts(const Question& question) {
     ImGui::Spacing();
 }
 
+// Tab and the arrow keys move the focus along the row, in which the first choice is the last button.
+void move_focus(Question& question) {
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key); };
+    const bool back = pressed(key::left) || (pressed(key::tab) && ImGui::GetIO().KeyShift);
+    const bool forward = pressed(key::right) || (pressed(key::tab) && !ImGui::GetIO().KeyShift);
+    const size_t count = question.choices.size();
+    if (back) question.focused = (question.focused + 1) % count;
+    if (forward) question.focused = (question.focused + count - 1) % count;
+}
+
+void choose_by_key(Question& question) {
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(key::escape)) question.chosen = question.choices.size() - 1;
+    if (pressed(key::enter) || pressed(key::pad_enter) || pressed(key::space)) question.chosen = question.focused;
+}
+
 // Right-aligned. The first choice is the outermost, away from the others.
 void draw_choices(PanelContext& c, Question& question) {
     const float width = ImGui::GetFontSize() * 7, gap = ImGui::GetStyle().ItemSpacing.x;
     const float all = float(question.choices.size()) * (width + gap) - gap;
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - all));
+    move_focus(question);
     for (size_t i = question.choices.size(); i-- > 0;) {
         if (ImGui::Button(question.choices[i].c_str(), {width, 0})) question.chosen = i;
+        if (i == question.focused)
+            ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), tone::text,
+                                                ImGui::GetStyle().FrameRounding);
         c.ui.probe.record_last_item("Question/" + question.choices[i]);
-        if (i == 0) ImGui::SetItemDefaultFocus();
         if (i > 0) ImGui::SameLine();
     }
-    if (ImGui::IsKeyPressed(key::escape)) question.chosen = question.choices.size() - 1;
-    if (ImGui::IsKeyPressed(key::enter)) question.chosen = 0;
+    choose_by_key(question);
 }
 
 } // namespace
@@ -46,7 +64,6 @@ void draw_question(PanelContext& c) {
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
         return;
-    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
     draw_texts(*c.ui.question);
     draw_choices(c, *c.ui.question);
     if (c.ui.question->chosen) ImGui::CloseCurrentPopup();

@@ -56,7 +56,6 @@ void draw_shortcut_sheet(PanelContext& c) {
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         guide_mark_in_title_bar(c.ui, "Guide/Shortcuts", guide_page::first_steps);
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {

@@ -79,7 +79,6 @@ void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
         const std::chrono::duration<double> left = toast.since + lifetime(toast) - now;
         c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, std::max(left.count(), 0.0));
         begin_card(("##toast" + std::to_string(i)).c_str(), right, bottom, edge_of(toast.kind));
-        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         draw_texts(toast, width);
         if (toast.action && ImGui::Button(shortcut(*toast.action).name)) {
             c.ui.commands.push_back(*toast.action);

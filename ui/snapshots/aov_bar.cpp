@@ -2,6 +2,7 @@
 
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/picture_pixels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/window/theme.h"
@@ -19,9 +20,11 @@ void draw_list(PanelContext& c, const Frame* frame) {
             ImGui::Separator();
         before = e.view.show;
         const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
-        if (ImGui::Selectable(e.name.c_str(), c.ui.aov == e.view, flags)) show_aov(c, e.view);
+        const std::string shown = elided(e.name, ImGui::GetFontSize() * 20);
+        if (ImGui::Selectable((shown + "###" + e.name).c_str(), c.ui.aov == e.view, flags)) show_aov(c, e.view);
+        if (c.ui.aov == e.view) ImGui::SetItemDefaultFocus(); // arrow keys go on from there
         c.ui.probe.record_last_item("Viewport/Pass/" + e.name);
-        if (!e.needs.empty()) tip_for_last_item(c.ui, e.needs.c_str());
+        if (!e.needs.empty() || shown != e.name) tip_for_last_item(c.ui, (e.needs.empty() ? e.name : e.needs).c_str());
     }
 }
 
@@ -57,7 +60,9 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     ImGui::PopStyleVar(3);
     ImGui::SetNextItemWidth(width);
     const Frame* frame = c.frame.get();
-    const bool open = ImGui::BeginCombo("##pass", name_of(c.ui.aov, frame).c_str(), ImGuiComboFlags_HeightLarge);
+    const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+    const std::string name = elided(name_of(c.ui.aov, frame), room);
+    const bool open = ImGui::BeginCombo("##pass", name.c_str(), ImGuiComboFlags_HeightLarge);
     if (!open) {
         c.ui.probe.record_last_item("Viewport/Pass");
         tip_for_last_item(c.ui, "The pass that the viewport shows: beauty or another AOV. Comma and full stop step through the passes.");
@@ -72,8 +77,8 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
 
 void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view) {
     const auto scale = is_special(frame, view) ? map_scale(frame, view.show) : std::nullopt;
-    // Between the upper edge and the environment dial.
-    const float em = ImGui::GetFontSize(), top = em * 2.6f, room = seen.height - top - em * 6, swatch = em * 1.1f;
+    // Between the line at the upper edge and the environment dial.
+    const float em = ImGui::GetFontSize(), top = em * 4.4f, room = seen.height - top - em * 6, swatch = em * 1.1f;
     const float height = std::floor(std::min(em * 14, room));
     if (!scale || height < em * 4) return;
     const ImVec2 at{seen.x + em, std::floor(seen.y + top + (room - height) / 2)};

@@ -1,6 +1,7 @@
 #include "ui/snapshots/compare_view.h"
 
 #include "ui/gl/texture_id.h"
+#include "ui/viewport/viewport_marks.h"
 #include "ui/window/layout.h"
 #include "ui/window/theme.h"
 
@@ -19,16 +20,6 @@ std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
 }
 
 PictureMix mix_of_side(const PanelContext& c, const ComparedSide& side) { return mix_of(c.ui.denoise, side.pictures.denoised != nullptr); }
-
-void label(const char* letter, const std::string& text, ImVec2 at, bool to_the_left) {
-    const std::string all = std::string(letter) + "   " + text;
-    const float em = ImGui::GetFontSize();
-    const ImVec2 size = ImGui::CalcTextSize(all.c_str());
-    if (to_the_left) at.x -= size.x + em;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(at, {at.x + size.x + em, at.y + size.y + em * 0.5f}, IM_COL32(20, 20, 20, 200), em * 0.2f);
-    draw.AddText({at.x + em * 0.5f, at.y + em * 0.25f}, tone::text, all.c_str());
-}
 
 // The wipe bar, in its own window above the viewport. True while it is dragged.
 bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
@@ -55,6 +46,19 @@ bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
 }
 
 } // namespace
+
+void name_picture(const std::string& text, const ImageRect& seen) {
+    const float em = ImGui::GetFontSize();
+    draw_label(*ImGui::GetWindowDrawList(), text, {seen.x + em, seen.y + em}, seen.width - 2 * em, tone::text);
+}
+
+void name_sides(const std::string& a, const std::string& b, const ImageRect& seen) {
+    const float em = ImGui::GetFontSize(), room = (seen.width - 3 * em) / 2;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw_label(draw, "A   " + a, {seen.x + em, seen.y + em}, room, tone::text);
+    const std::string right = "B   " + b;
+    draw_label(draw, right, {seen.x + seen.width - em - label_size(right, room).x, seen.y + em}, room, tone::text);
+}
 
 ComparedSide compared_side(const PanelContext& c, uint64_t id) {
     if (id == live_image) return {id, "live", {c.frame, c.denoised}};
@@ -174,14 +178,15 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     const float x = std::round(seen.x + compare.wipe * seen.width);
     if (a.id != live_image) draw_part(parts_[0], image, {seen.x, seen.y, x - seen.x, seen.height});
     if (b.id != live_image) draw_part(parts_[1], image, {x, seen.y, seen.x + seen.width - x, seen.height});
-    const float em = ImGui::GetFontSize();
-    label("A", a.label, {seen.x + em, seen.y + em}, false);
-    label("B", b.label, {seen.x + seen.width - em, seen.y + em}, true);
+    left_name_ = a.label;
+    right_name_ = b.label;
     if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
 void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace) {
     Comparison& compare = c.ui.snapshots.compare;
+    left_name_.clear();
+    right_name_.clear();
     if (compare.mode == Mode::off) {
         c.ui.difference.reset();
         return;
@@ -191,16 +196,23 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
     ask_difference(c, a, b);
     update(c, a, b, look, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
-    const float em = ImGui::GetFontSize();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);
     if (compare.mode == Mode::flicker && drawn_) {
         const ComparedSide& side = compare.shows_b ? b : a;
         if (side.id != live_image) draw_part(parts_[compare.shows_b], image, seen);
-        return label(compare.shows_b ? "B" : "A", side.label, {seen.x + em, seen.y + em}, false);
+        left_name_ = (compare.shows_b ? "B   " : "A   ") + side.label;
+        return;
     }
     if (compare.mode != Mode::difference || !answer_ || !answer_->problem.empty() || !drawn_) return;
     draw_part({pass_.texture()}, image, seen);
-    label("A - B", caption_of(compare.kind), {seen.x + em, seen.y + em}, false);
+    left_name_ = std::string("A - B   ") + caption_of(compare.kind);
+}
+
+void CompareView::draw_names(const ImageRect& seen) const {
+    if (!right_name_.empty())
+        name_sides(left_name_, right_name_, seen);
+    else if (!left_name_.empty())
+        name_picture(left_name_, seen);
 }
 
 } // namespace blush

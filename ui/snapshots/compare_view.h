@@ -22,11 +22,17 @@ struct ComparedSide {
 // Null frames if there is no such picture.
 ComparedSide compared_side(const PanelContext& c, uint64_t id);
 
+// The name of the whole picture, and those of both sides of a wipe.
+void name_picture(const std::string& text, const ImageRect& seen);
+void name_sides(const std::string& a, const std::string& b, const ImageRect& seen);
+
 class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
     // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
     void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace);
+    // Names what draw() has drawn; after everything that dims the picture.
+    void draw_names(const ImageRect& seen) const;
 
 private:
     // Rectangle of a picture in a texture.
@@ -54,6 +60,7 @@ private:
         bool operator==(const Shown&) const = default;
     } shown_;
     Part parts_[2];
+    std::string left_name_, right_name_; // right: of a wipe
     AsyncQuery<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
     std::shared_ptr<const Difference> answer_;
 };

@@ -2,15 +2,16 @@
 
 #include "scene/affine.h"
 #include "scene/animation/pose.h"
+#include "ui/viewport/viewport_marks.h"
 #include "ui/window/theme.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace blush {
 namespace {
 
-constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 255 - brightness_outside_frame), edge = IM_COL32(150, 150, 150, 160),
-                label_ground = IM_COL32(20, 20, 20, 170);
+constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 255 - brightness_outside_frame), edge = IM_COL32(150, 150, 150, 160);
 
 void draw_passepartout(ImDrawList& draw, const ImageRect& picture, const ImageRect& frame) {
     const float bottom = picture.y + picture.height, right = frame.x + frame.width;
@@ -37,11 +38,9 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
     const Node* camera = c.scene().nodes.find(c.ui.home.camera);
     const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press),
                                          camera && !camera->name.empty() ? camera->name : "camera");
-    const float em = ImGui::GetFontSize();
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at{seen.x + em, seen.y + em};
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.25f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.25f}, label_ground,
-                       em * 0.25f);
-    draw.AddText(at, tone::dim_text, text.c_str());
+    // Beside the list of passes.
+    const float em = ImGui::GetFontSize(), room = std::max(seen.width - 13 * em, 6 * em);
+    const ImVec2 at{seen.x + em * 0.5f, seen.y + em * 0.75f}, size = draw_label(draw, text, at, room, tone::dim_text);
     c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});
 }
 

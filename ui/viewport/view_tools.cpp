@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "ui/viewport/region_backdrop.h"
+#include "ui/viewport/viewport_marks.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -22,15 +23,6 @@ const char* hint_of(ViewTool tool) {
     case ViewTool::measure: return "Drag a rectangle to measure.  Esc: cancel";
     }
     return "";
-}
-
-void draw_hint(const ImageRect& image, const char* text) {
-    const float em = ImGui::GetFontSize();
-    const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + em};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f},
-                       IM_COL32(20, 20, 20, 220), em * 0.2f);
-    draw.AddText(at, tone::text, text);
 }
 
 void pick_white(PanelContext& c, double u, double v) {
@@ -115,9 +107,9 @@ void render_region(PanelContext& c, const PictureRegion& region) {
     c.apply(SetRender{r});
 }
 
-bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, const ImageRect& seen, bool hovered) {
+bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered) {
     if (c.ui.tool == ViewTool::none) return false;
-    draw_hint(seen, hint_of(c.ui.tool));
+    draw_hint(*ImGui::GetWindowDrawList(), hint_of(c.ui.tool));
     if (!c.has_picture()) return true;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double u = image.u(mouse.x), v = image.v(mouse.y);

@@ -21,7 +21,7 @@ void render_region(PanelContext& c, const PictureRegion& region);
 
 // Shows the hint of the active tool over the visible part of the picture, and executes the tool. True while a tool is active: the
 // viewport then ignores the mouse.
-bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, const ImageRect& seen, bool hovered);
+bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
 
 // Mean of the displayed picture within `radius` pixels of (u, v), scene-linear; averaging reduces the noise.
 Vec3 picked_color(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, double u, double v, int radius);

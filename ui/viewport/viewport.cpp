@@ -13,11 +13,13 @@
 #include "ui/viewport/camera_frame_overlay.h"
 #include "ui/viewport/environment_dial.h"
 #include "ui/viewport/false_color_legend.h"
+#include "ui/viewport/meter_marks.h"
 #include "ui/viewport/orbit_camera.h"
 #include "ui/viewport/picking.h"
 #include "ui/viewport/pixel_grid.h"
 #include "ui/viewport/view_tools.h"
 #include "ui/viewport/viewport_marks.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
 
 namespace blush {
@@ -63,13 +65,11 @@ void draw_centred(const char* text) {
 }
 
 // A caption at the lower edge of the picture.
-void write_caption(const ImageRect& image, const char* text) {
-    const float em = ImGui::GetFontSize();
-    const ImVec2 size = ImGui::CalcTextSize(text), at{image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - em * 0.5f, at.y - em * 0.3f}, {at.x + size.x + em * 0.5f, at.y + size.y + em * 0.3f},
-                       IM_COL32(20, 20, 20, 220), em * 0.2f);
-    draw.AddText(at, tone::warning, text);
+void write_caption(const ImageRect& image, const std::string& text) {
+    const float em = ImGui::GetFontSize(), room = image.width - 2 * em;
+    const ImVec2 size = label_size(text, room);
+    draw_label(*ImGui::GetWindowDrawList(), text, {image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em * 0.7f}, room,
+               tone::warning);
 }
 
 // Mask over node ids: the node and all its descendants.
@@ -321,11 +321,11 @@ void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const
         const AovView& wanted = c.ui.aov;
         const bool lacks =
             wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
-        if (lacks) write_caption(image, (name_of(wanted, shown_frame_.get()) + " is not rendered yet").c_str());
+        if (lacks) write_caption(image, name_of(wanted, shown_frame_.get()) + " is not rendered yet");
         return;
     }
     if (uploaded_view_.show == PictureView::Show::illuminance) return;
-    write_caption(image, caption_of(*shown_frame_, uploaded_view_).c_str());
+    write_caption(image, caption_of(*shown_frame_, uploaded_view_));
 }
 
 void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
@@ -393,7 +393,8 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw_surroundings(c, image, pace);
     draw_camera_frame(c, draw, image, seen, alone);
-    bool taken = use_tool(c, projection, image, seen, hovered && !navigation_.busy());
+    compare_.draw_names(seen);
+    bool taken = use_tool(c, projection, image, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
     const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
     if (!special) draw_pixel_grid(draw, image, window_region(), *shown_frame_); // the values are those of the beauty
@@ -438,7 +439,7 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
         taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
     if (const Light* light = light_camera_light(c); light && c.ui.placing_by == PlacingBy::hand)
-        draw_hint(draw, "Looking through " + light->name + ": moving the view moves the light.  L or Esc: back");
+        draw_hint(draw, "Looking through " + elided(light->name, max_name_width()) + ": moving the view moves the light.  L or Esc: back");
     taken |= place_tool_.update(c, draw, projection, image, hovered);
     taken |= transformer_.update(c, draw, projection, image);
     draw.PopClipRect();

@@ -1,6 +1,7 @@
 #include "ui/viewport/viewport_marks.h"
 
 #include "core/math.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
 
 #include <cmath>
@@ -42,11 +43,29 @@ void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double 
     draw.AddCircle(at, radius, tone::text);
 }
 
+float max_name_width() { return ImGui::GetFontSize() * 14; }
+
+ImVec2 label_size(const std::string& text, float room) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(elided_middle(text, room - em).c_str());
+    return {size.x + em, size.y + em * 0.5f};
+}
+
+ImVec2 draw_label(ImDrawList& draw, const std::string& text, const ImVec2& at, float room, ImU32 color) {
+    const float em = ImGui::GetFontSize();
+    const ImVec2 size = label_size(text, room);
+    draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(20, 20, 20, 200), em * 0.25f);
+    draw.AddText({at.x + em * 0.5f, at.y + em * 0.25f}, color, elided_middle(text, room - em).c_str());
+    return size;
+}
+
 void draw_hint(ImDrawList& draw, const std::string& text) {
     const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
     const float em = ImGui::GetFontSize(), wrap = std::max(high.x - low.x - 3 * em, em);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 at{std::round((low.x + high.x - size.x) / 2), std::round(low.y + em)};
+    // Below the list of passes, if it would reach there.
+    const bool reaches_passes = size.x > high.x - low.x - 26 * em;
+    const ImVec2 at{std::round((low.x + high.x - size.x) / 2), std::round(low.y + em * (reaches_passes ? 2.6f : 1.f))};
     draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f},
                        IM_COL32(20, 20, 20, 220), em * 0.25f);
     draw.AddText(ImGui::GetFont(), em, at, tone::text, text.c_str(), nullptr, wrap);

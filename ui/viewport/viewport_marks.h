@@ -1,4 +1,4 @@
-// Overlay drawing over the picture: lines given in the world, and a line of text at the top.
+// Overlay drawing over the picture: lines given in the world, labels, and a line of text at the top.
 #pragma once
 
 #include "ui/transform/gizmo.h"
@@ -25,6 +25,15 @@ struct WorldPen {
 
 // A ring around the inspected pixel; (u, v) in the picture.
 void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v);
+
+// Widest part of a label or hint that a name may take: names can have any length.
+float max_name_width();
+
+// A line of text on a dark field, shortened in the middle if the field is wider than `room`. Returns the field's size. `at`: its upper
+// left corner.
+ImVec2 draw_label(ImDrawList& draw, const std::string& text, const ImVec2& at, float room, ImU32 color);
+// The size that draw_label() gives it.
+ImVec2 label_size(const std::string& text, float room);
 
 // A hint for the current mouse action, at the upper edge.
 void draw_hint(ImDrawList& draw, const std::string& text);

@@ -5,7 +5,6 @@
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
 #include "ui/viewport/picking.h"
-#include "ui/window/theme.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,26 +66,6 @@ std::string reading_text(const MeterReading& reading) {
     // As many decimals as the confidence interval justifies.
     const int decimals = half > 0 ? std::clamp(1 - int(std::floor(std::log10(half))), 0, 6) : 3;
     return fmt::format("{:.{}f} ± {:.{}f} lx", lux.value, decimals, half, decimals);
-}
-
-void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& projection, const Scene& scene, const ViewSettings& view,
-                 const MetersView& meters) {
-    const float em = ImGui::GetFontSize();
-    for (size_t i = 0; i < view.meters.size(); ++i) {
-        const PlacedMeter place = placed(scene, view.meters[i]);
-        const auto at = projection.project(place.position);
-        if (!at) continue;
-        const ScreenPoint p = image.at(*at);
-        draw.AddCircle({p.x, p.y}, em * 0.42f, IM_COL32(0, 0, 0, 200), 0, em * 0.25f);
-        draw.AddCircle({p.x, p.y}, em * 0.42f, tone::text, 0, em * 0.12f);
-        draw.AddCircleFilled({p.x, p.y}, em * 0.12f, tone::text);
-        const bool read = i < meters.state.answer.size();
-        const std::string text = view.meters[i].name + "  " + (read ? reading_text(meters.state.answer[i]) : "...");
-        const ImVec2 corner{p.x + em * 0.8f, p.y - em * 0.6f}, size = ImGui::CalcTextSize(text.c_str());
-        draw.AddRectFilled({corner.x - em * 0.25f, corner.y - em * 0.1f}, {corner.x + size.x + em * 0.25f, corner.y + size.y + em * 0.1f},
-                           IM_COL32(20, 20, 20, 200), em * 0.2f);
-        draw.AddText(corner, tone::text, text.c_str());
-    }
 }
 
 } // namespace blush

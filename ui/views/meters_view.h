@@ -1,4 +1,4 @@
-// Light meters of the window: places, readings and drawing.
+// Light meters of the window: places and readings.
 #pragma once
 
 #include "render/frame.h"
@@ -6,7 +6,6 @@
 #include "ui/jobs/meter_runner.h"
 #include "ui/transform/gizmo.h"
 
-#include <imgui.h>
 #include <memory>
 #include <optional>
 
@@ -27,7 +26,5 @@ std::vector<MeterPlace> places_of(const Scene& scene, const std::vector<LightMet
 
 // "342 ± 4 lx"; "..." before there is an interval; "no light found yet" if all estimates are 0 although the scene has light.
 std::string reading_text(const MeterReading& reading);
-void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& projection, const Scene& scene, const ViewSettings& view,
-                 const MetersView& meters);
 
 } // namespace blush

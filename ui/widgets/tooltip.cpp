@@ -44,9 +44,6 @@ void tip_for_last_item(UiState& ui, const char* tip) {
     const ImVec2 text = ImGui::CalcTextSize(tip, nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({text.x + 2 * padding.x, text.y + 2 * padding.y});
     ImGui::BeginTooltip();
-    // ImGui hides a new window for the frame in which it measures it; with the mouse at rest nothing else requests the next
-    // frame.
-    if (ImGui::IsWindowAppearing()) ui.seconds_to_next_frame = 0;
     ImGui::PushTextWrapPos(wrap);
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();

@@ -159,7 +159,6 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
         ImGui::StartMouseMovingWindow(ImGui::GetCurrentWindow());
         GImGui->ActiveIdClickOffset = {em * 5, ImGui::GetFrameHeight() / 2}; // not where the tab was clicked
     }
-    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
     const ImVec2 at = ImGui::GetWindowPos();
     c.ui.probe.record(std::string("Window/") + i.title, {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);

@@ -1,5 +1,7 @@
 #include "ui/window/file_listing.h"
 
+#include "core/files.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -52,6 +54,13 @@ Result<FolderListing> list_folder(const std::filesystem::path& folder, const Ext
         return std::tuple(!a.folder, lower(a.name), a.name) < std::tuple(!b.folder, lower(b.name), b.name);
     });
     return listing;
+}
+
+std::filesystem::path meant_path(const std::string& typed, const std::filesystem::path& folder) {
+    const std::filesystem::path home = user_folder("HOME", "");
+    if (!home.empty() && (typed == "~" || typed.starts_with("~/")))
+        return (home / typed.substr(std::min<size_t>(typed.size(), 2))).lexically_normal();
+    return (folder / typed).lexically_normal();
 }
 
 std::string completed_path(const std::string& typed, const ExtensionFilter& filter) {

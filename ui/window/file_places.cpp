@@ -21,7 +21,7 @@ std::vector<FilePlace> file_places(const WindowSettings& settings, const std::fi
     };
     for (const std::string& bookmark : settings.bookmarks) add(name_of(bookmark), bookmark, true);
     add("Home", user_folder("HOME", ""));
-    add("Desktop", user_folder("XDG_DESKTOP_DIR", "Desktop"));
+    add("Desktop", named_user_folder("XDG_DESKTOP_DIR", "Desktop"));
     add("Scene", scene_folder);
     size_t recent = 0;
     for (const std::string& file : settings.recent) {

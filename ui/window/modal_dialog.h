@@ -10,7 +10,8 @@ namespace blush {
 struct Question {
     std::string text;
     std::string details;              // smaller text below; may be empty
-    std::vector<std::string> choices; // Enter chooses the first, Esc the last
+    std::vector<std::string> choices; // Enter chooses the focused one, Esc the last
+    size_t focused = 0;               // moved by Tab and arrow keys
     std::optional<size_t> chosen = {};
 };
 

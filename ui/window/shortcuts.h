@@ -8,7 +8,8 @@ namespace blush {
 
 // Key codes of GLFW; letters are their upper-case ASCII codes.
 namespace key {
-constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, backspace = 259, remove = 261, home = 268, f1 = 290;
+constexpr int none = 0, space = 32, zero = 48, escape = 256, enter = 257, tab = 258, backspace = 259, remove = 261, right = 262, left = 263,
+              down = 264, up = 265, home = 268, f1 = 290;
 constexpr int pad_zero = 320, pad_point = 330, pad_minus = 333, pad_enter = 335; // of the number pad
 } // namespace key
 

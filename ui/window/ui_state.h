@@ -62,11 +62,12 @@ struct ToolStart {
 struct FileBrowser {
     FileRequest::Use use = FileRequest::Use::open;
     std::filesystem::path folder;
-    std::string typed; // the path field
-    std::string chosen;
+    std::string typed;  // the path field
+    std::string chosen; // file in `folder`, or a folder that the arrow keys have reached
     bool just_opened = true;
     std::filesystem::path scene_folder = {}; // of the open scene
     bool on_desktop = false;                 // the desktop's dialog is open: the file browser is not drawn
+    bool scroll_to_chosen = false;
 };
 
 // The pixel whose values are shown.
@@ -123,6 +124,13 @@ struct TipTimer {
     int frame = -1;   // in which it was last hovered
 };
 
+// For Left and Right in the menus of the menu bar.
+struct MenuBarView {
+    int open = -1;    // the menu that is open; -1: none
+    int turn = 0;     // to the next menu or the previous one, if the open menu has no use for the key
+    int to_open = -1; // in this frame
+};
+
 struct UiState {
     Id<Node> selected;                   // the active node: used by handles and inspector
     std::vector<Id<Node>> also_selected; // edited together with it (multi-edit)
@@ -153,6 +161,7 @@ struct UiState {
     CameraFrame frame;                     // of that camera
     TransformView transform;               // of the selection, by gizmo or keys
     bool show_history = false;
+    MenuBarView menu_bar;
     LightMixView light_mix;
     BouncesView bounces;
     AovView aov; // the pass selected in the viewport's toolbar

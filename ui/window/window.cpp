@@ -19,7 +19,8 @@ namespace {
 static_assert(key::space == GLFW_KEY_SPACE && key::zero == GLFW_KEY_0 && key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER &&
               key::tab == GLFW_KEY_TAB && key::backspace == GLFW_KEY_BACKSPACE && key::pad_zero == GLFW_KEY_KP_0 &&
               key::pad_point == GLFW_KEY_KP_DECIMAL && key::pad_minus == GLFW_KEY_KP_SUBTRACT && key::pad_enter == GLFW_KEY_KP_ENTER &&
-              key::remove == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
+              key::remove == GLFW_KEY_DELETE && key::up == GLFW_KEY_UP && key::down == GLFW_KEY_DOWN && key::left == GLFW_KEY_LEFT &&
+              key::right == GLFW_KEY_RIGHT && key::home == GLFW_KEY_HOME && key::f1 == GLFW_KEY_F1);
 
 constexpr int frames_after_input = 3;
 
@@ -217,6 +218,7 @@ void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     unwrap_mouse();
+    navigate_popups_by_keys();
     ImGui::NewFrame();
 }
 

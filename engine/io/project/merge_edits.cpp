@@ -248,4 +248,25 @@ MergedEdits merge_edits(const Scene& base, const Scene& mine, const Scene& their
     return out;
 }
 
+Scene without_lighting_missing_in(const Scene& theirs, const Scene& saved) {
+    Scene base = saved;
+    const RecordMap map = match_records(saved, theirs);
+    for (const auto& [id, light] : saved.lights)
+        if (!map.lights(id)) base.lights.remove(id);
+    for (const auto& [id, node] : saved.nodes) {
+        if (!node.light || map.lights(node.light)) continue;
+        if (map.nodes(id)) {
+            Node bare = node;
+            bare.light = {};
+            base.nodes.set(id, bare);
+        }
+        // A light needs its parents.
+        const Node* n = &node;
+        for (Id<Node> up = id; n && !map.nodes(up) && base.nodes.remove(up); n = saved.nodes.find(up)) up = n->parent;
+    }
+    if (saved.environment != Environment{}) base.environment = theirs.environment;
+    if (saved.mix != LightMix{}) base.mix = theirs.mix;
+    return base;
+}
+
 } // namespace blush

@@ -19,4 +19,9 @@ struct MergedEdits {
 // added, removed records removed. The view and the chosen clip, scene and variant stay mine.
 MergedEdits merge_edits(const Scene& base, const Scene& mine, const Scene& theirs);
 
+// A base for merge_edits() if another program wrote `theirs` over `saved` and the scene before is not known: `saved` without the
+// lights that theirs lacks, and with the environment and light mix of theirs, which other programs do not write. These count as
+// edits then.
+Scene without_lighting_missing_in(const Scene& theirs, const Scene& saved);
+
 } // namespace blush

@@ -1,6 +1,7 @@
 #include "render/compile/baked_transforms.h"
 
 #include "core/math.h"
+#include "render/compile/expanded_lights.h"
 #include "scene/affine.h"
 #include "scene/geometry/arena_geometry.h"
 
@@ -114,6 +115,8 @@ SceneObject at_places(const SceneObject& object, std::vector<Affined> places) {
     return placed;
 }
 
+constexpr const char* without_area = "no area; the transform flattens it to a line or a point, or is not finite";
+
 void warn(const Scene& scene, const SceneObject& object, size_t count, const char* why, std::vector<Diagnostic>& left_out) {
     if (count == 0) return;
     const size_t all = object.copies();
@@ -183,7 +186,9 @@ void BakedTransforms::bake(const Scene& scene, std::vector<SceneObject>& objects
     std::vector<SceneObject> result;
     result.reserve(objects.size());
     for (SceneObject& object : objects) {
-        if (!object.instanced || all_invertible(object)) {
+        const bool flat = !object.instanced; // its vertices are in world space: any transform will do
+        if (flat && !is_expanded(object.node)) warn(scene, object, !split_place(object.world_from_object).has_area, without_area, left_out);
+        if (flat || all_invertible(object)) {
             result.push_back(std::move(object));
             continue;
         }
@@ -206,7 +211,7 @@ void BakedTransforms::bake(const Scene& scene, std::vector<SceneObject>& objects
             }
             result.push_back(std::move(baked_object));
         }
-        warn(scene, object, sorted.without_area, "no area; the transform flattens it to a line or a point, or is not finite", left_out);
+        warn(scene, object, sorted.without_area, without_area, left_out);
         warn(scene, object, over_budget, "too many triangles in flattened shapes", left_out);
     }
     objects = std::move(result);

@@ -34,7 +34,7 @@ public:
     using Stretch = std::array<double, 9>; // column-major
     // Replaces instances without a usable inverse by objects with their own meshes, each placed after the object that it comes
     // from; instances with equal stretch share a mesh. Removes instances without area and those beyond max_baked_triangles, and
-    // adds a warning for each affected node. Meshes of the last call are reused.
+    // adds a warning for each affected node and for other objects without area. Meshes of the last call are reused.
     void bake(const Scene& scene, std::vector<SceneObject>& objects, std::vector<Diagnostic>& left_out);
 
 private:

@@ -159,6 +159,7 @@ void RenderScene::update(const Scene& scene, const RenderSettings& settings, con
     if (plan.camera || changed_.origin)
         tables_.camera = camera_record(scene.view, float(settings.width) / float(settings.height), extent_.origin);
     if (plan.features) features_ = compute_features(scene, settings);
+    update_warnings();
 }
 
 Id<Material> RenderScene::material_id(int32_t index) const {

@@ -22,6 +22,7 @@
 #include "render/materials/material_table.h"
 
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace blush {
@@ -53,6 +54,8 @@ public:
     bool may_be_lambertian() const { return used_.lambertian; }
     // See missing_light.h.
     const std::string& missing_light() const { return missing_light_; }
+    // Of the last update. Triangles without area are not among them: info() looks for these, which reads every triangle.
+    const std::shared_ptr<const std::vector<Diagnostic>>& warnings() const { return warnings_; }
     // Everything except the kernel and the feature report.
     CompiledInfo info() const;
     // `expanded`: the scene of the last update(); `film`: the film that is rendered to.
@@ -76,6 +79,7 @@ private:
                        const LightGroups* groups);
     void update_groups(const LightGroups* groups);
     void update_caustic_casters(const Scene& scene, const RenderSettings& settings);
+    void update_warnings();
     Features compute_features(const Scene& scene, const RenderSettings& settings) const;
 
     // What the current update has changed so far.
@@ -132,6 +136,7 @@ private:
     bool has_geometry_ = false, has_environment_map_ = false;
     NeeLights aim_ = NeeLights::all_lights; // as passed last time
     std::string missing_light_;
+    std::shared_ptr<const std::vector<Diagnostic>> warnings_; // replaced if they change; never null after an update
 };
 
 // The camera for kernels, at the given aspect = width / height, positioned relative to `origin`.

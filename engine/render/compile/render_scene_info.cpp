@@ -16,32 +16,36 @@ Diagnostic degenerate_triangles(int64_t n) {
 
 } // namespace
 
+void RenderScene::update_warnings() {
+    std::vector<Diagnostic> warnings = materials_.textures.warnings;
+    warnings.insert(warnings.end(), materials_.warnings.begin(), materials_.warnings.end());
+    warnings.insert(warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
+    warnings.insert(warnings.end(), left_out_.begin(), left_out_.end());
+    if (casters_.left_out() > 0)
+        warnings.push_back({Diagnostic::Severity::warning,
+                            fmt::format("more than {} different sets of shadow casters: shadow linking is ignored for {}", max_caster_sets,
+                                        counted(casters_.left_out(), "light", "lights")),
+                            ""});
+    if (lights_.unsampled_triangles > 0)
+        warnings.push_back({Diagnostic::Severity::warning,
+                            fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
+                                        "sampling only and will be noisy",
+                                        lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
+                            ""});
+    if (lights_.fewer_disk_corners > 0)
+        warnings.push_back({Diagnostic::Severity::warning,
+                            fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
+                                        "edges and in reflections",
+                                        lights_.fewer_disk_corners, max_disk_corners),
+                            ""});
+    if (!warnings_ || *warnings_ != warnings) warnings_ = std::make_shared<const std::vector<Diagnostic>>(std::move(warnings));
+}
+
 CompiledInfo RenderScene::info() const {
     CompiledInfo info;
     info.materials = int64_t(materials_.ids.size());
     info.textures = int64_t(materials_.textures.records.size());
-    info.warnings = materials_.textures.warnings;
-    info.warnings.insert(info.warnings.end(), materials_.warnings.begin(), materials_.warnings.end());
-    info.warnings.insert(info.warnings.end(), environment_.warnings.begin(), environment_.warnings.end());
-    info.warnings.insert(info.warnings.end(), left_out_.begin(), left_out_.end());
-    if (casters_.left_out() > 0)
-        info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("more than {} different sets of shadow casters: shadow linking is ignored for {}",
-                                             max_caster_sets, counted(casters_.left_out(), "light", "lights")),
-                                 ""});
-    if (lights_.unsampled_triangles > 0)
-        info.warnings.push_back(
-            {Diagnostic::Severity::warning,
-             fmt::format("{} of {} emissive triangles exceed the light-sampling limit of {}: their light is found by BSDF "
-                         "sampling only and will be noisy",
-                         lights_.unsampled_triangles, lights_.emissive_triangles, max_mesh_lights),
-             ""});
-    if (lights_.fewer_disk_corners > 0)
-        info.warnings.push_back({Diagnostic::Severity::warning,
-                                 fmt::format("many disk lights: each is a polygon of {} corners instead of {}, which is visible at their "
-                                             "edges and in reflections",
-                                             lights_.fewer_disk_corners, max_disk_corners),
-                                 ""});
+    if (warnings_) info.warnings = *warnings_;
     if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;

@@ -149,6 +149,26 @@ TEST(Flattened, ToALineOrAPointAreRemovedWithAWarning) {
     EXPECT_TRUE(warnings_of(pair_of({1, 1, 0}, How::shared_mesh)).empty());
 }
 
+// The window shows them with each picture; they are the same object until they change.
+TEST(Flattened, WarningsComeWithThePicture) {
+    Renderer renderer({.threads = 1, .planes = {}});
+    const auto warnings_with = [&](const Scene& scene) {
+        renderer.update(scene, settings_for(8, 8, 1));
+        renderer.render(0, 1);
+        return renderer.resolve().warnings;
+    };
+    for (const How how : {How::own_mesh, How::shared_mesh}) {
+        const auto none = warnings_with(pair_of({1, 1, 1}, how)), flat = warnings_with(pair_of({0, 1, 0}, how));
+        EXPECT_TRUE(none->empty());
+        ASSERT_EQ(flat->size(), 2u);
+        EXPECT_NE(flat->front().what.find("not rendered"), std::string::npos) << flat->front().what;
+        Scene darker = pair_of({0, 1, 0}, how);
+        constant_world(darker, 0.5f);
+        EXPECT_EQ(warnings_with(darker), flat);
+        EXPECT_TRUE(warnings_with(pair_of({1, 1, 0.5f}, how))->empty());
+    }
+}
+
 TEST(Flattened, CopiesWithEqualStretchShareAMesh) {
     auto mesh = std::make_shared<Geometry>(*sphere(false));
     Scene scene;

@@ -1,4 +1,4 @@
-// No text is cut off: every panel with names of sixty letters and more, at scales 1 and 2.
+// No text is cut off: every panel and overlay with names of sixty letters and more, at scales 1 and 2.
 #include "app/editor/editor_panels.h"
 #include "io/gltf/read/import.h"
 #include "render/light_mix/light_groups.h"
@@ -9,8 +9,13 @@
 #include "tests/ui/shipped_ocio_config.h"
 #include "ui/panels/instruments.h"
 #include "ui/panels/panels.h"
+#include "ui/snapshots/aov_bar.h"
+#include "ui/snapshots/compare_view.h"
 #include "ui/snapshots/snapshot_strip.h"
+#include "ui/viewport/camera_frame_overlay.h"
+#include "ui/viewport/meter_marks.h"
 #include "ui/viewport/regions.h"
+#include "ui/viewport/viewport_marks.h"
 #include "ui/window/theme.h"
 #include "ui/window/window_settings.h"
 
@@ -102,6 +107,7 @@ FramePtr long_frame(const Scene& scene) {
     f->error_samples = 65536;
     f->light_groups = std::make_shared<const LightGroups>(make_light_groups(scene));
     f->groups.assign(f->light_groups->groups.size(), {{1, 1, 1}});
+    for (const auto& group : f->light_groups->groups) f->group_names.push_back(group.name);
     f->gains.assign(f->light_groups->groups.size(), {1, 1, 1});
     f->group_shares.resize(f->light_groups->groups.size());
     return f;
@@ -215,7 +221,8 @@ protected:
         struct Size {
             float width, height, scale;
         };
-        for (const Size& s : {Size{1280, 720, 1}, Size{1720, 960, 1}, Size{2560, 1440, 2}, Size{1720, 960, 1.5f}, Size{1280, 720, 2}}) {
+        for (const Size& s : {Size{1280, 720, 1}, Size{1720, 960, 1}, Size{2560, 1440, 2}, Size{1720, 960, 1.5f}, Size{1280, 720, 2},
+                              Size{2560, 1440, 1}, Size{1720, 960, 2}}) {
             begin(s.width, s.height, s.scale);
             body();
         }
@@ -298,6 +305,51 @@ TEST_F(LongNames, PopupsAndDialogs) {
         extra = [](PanelContext& c, const Layout&) { draw_question(c); };
         expect_readable("question");
         ui.question.reset();
+    });
+}
+
+// What is written into the picture, in the viewport as wide as the docks leave it and in a narrow one.
+TEST_F(LongNames, ViewportOverlays) {
+    ui.home = home_at_opening(document.project().scene);
+    ASSERT_TRUE(ui.home.camera);
+    View away = document.project().scene.view;
+    away.position.x += 1;
+    document.navigate(away);
+    std::function<void(PanelContext&, ImDrawList&, const ImageRect&)> overlay;
+    float share = 1;
+    extra = [&](PanelContext& c, const Layout& l) {
+        begin_region("Viewport", {l.viewport.x, l.viewport.y, l.viewport.width * share, l.viewport.height}, {.padded = false});
+        const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+        overlay(c, *ImGui::GetWindowDrawList(), {at.x, at.y, size.x, size.y});
+        end_region();
+    };
+    const auto expect_all_readable = [&](const std::string& what) {
+        for (const float s : {1.f, 0.4f}) {
+            share = s;
+            expect_readable(fmt::format("{}, {} of the viewport", what, s));
+        }
+    };
+    ui.aov = {PictureView::Show::group, 0};
+    at_all_sizes([&] {
+        overlay = [&](PanelContext& c, ImDrawList& draw, const ImageRect& seen) {
+            draw_camera_frame(c, draw, seen, seen, true);
+            draw_aov_bar(c, seen);
+            draw_map_scale(draw, seen, *frame, {PictureView::Show::depth});
+        };
+        expect_all_readable("passes, map scale and free view");
+        overlay = [&](PanelContext& c, ImDrawList& draw, const ImageRect& seen) {
+            const Projection towards_meter({.position = {0, 0, 4}}, double(seen.width) / seen.height);
+            draw_meters(draw, seen, towards_meter, c.scene(), {.meters = {{long_name("Meter"), {}, {}, {0, 0, 1}, 1}}}, c.ui.meters);
+        };
+        expect_all_readable("a meter");
+        overlay = [&](PanelContext&, ImDrawList&, const ImageRect& seen) { name_sides(long_name("A"), long_name("B"), seen); };
+        expect_all_readable("both sides of a wipe");
+        overlay = [&](PanelContext&, ImDrawList&, const ImageRect& seen) { name_picture("A   " + long_name("A"), seen); };
+        expect_all_readable("one side");
+        overlay = [&](PanelContext&, ImDrawList& draw, const ImageRect&) {
+            draw_hint(draw, "Scale along the local axis X: 12345.678   Enter or click: confirm.  Esc: cancel");
+        };
+        expect_all_readable("a transform");
     });
 }
 

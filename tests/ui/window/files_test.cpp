@@ -1,5 +1,6 @@
 // Saved UI settings: damaged files, recent files; folder listings.
 #include "ui/window/file_listing.h"
+#include "ui/window/file_places.h"
 #include "ui/window/window_settings.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <utility>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -131,6 +133,39 @@ TEST_F(Files, PathIsCompletedToTheCommonPrefix) {
     EXPECT_EQ(completed_path(base + "sc", scene_files), base + "scenes/");
     EXPECT_EQ(completed_path(base + "no", scene_files), base + "no") << "not of the kind";
     EXPECT_EQ(completed_path("nowhere/x", scene_files), "nowhere/x");
+}
+
+TEST_F(Files, TypedPathIsRelativeToTheShownFolderOrToHome) {
+    setenv("HOME", "/home/somebody", 1);
+    EXPECT_EQ(meant_path("~/scenes/a.glb", "/work"), "/home/somebody/scenes/a.glb");
+    EXPECT_EQ(meant_path("~", "/work"), "/home/somebody/");
+    EXPECT_EQ(meant_path("~x", "/work"), "/work/~x");
+    EXPECT_EQ(meant_path("a.glb", "/work/scenes"), "/work/scenes/a.glb");
+    EXPECT_EQ(meant_path("../sky/", "/work/scenes"), "/work/sky/");
+    EXPECT_EQ(meant_path("/a.glb", "/work"), "/a.glb");
+    EXPECT_EQ(meant_path("", "/work"), "/work/");
+    unsetenv("HOME");
+    EXPECT_EQ(meant_path("~/a", "/work"), "/work/~/a");
+}
+
+TEST_F(Files, PlacesHaveTheDesktopAndFoldersOfRecentFiles) {
+    setenv("HOME", folder.c_str(), 1);
+    setenv("XDG_CONFIG_HOME", (folder / "config").c_str(), 1);
+    unsetenv("XDG_DESKTOP_DIR");
+    for (const char* name : {"Schreibtisch", "scene", "other", "kept"}) std::filesystem::create_directories(folder / name);
+    write("config/user-dirs.dirs", "# by xdg-user-dirs\nXDG_MUSIC_DIR=\"$HOME/x\"\nXDG_DESKTOP_DIR=\"$HOME/Schreibtisch\"\n");
+    WindowSettings settings;
+    settings.recent = {(folder / "scene/a.glb").string(), (folder / "other/b.glb").string(), (folder / "gone/c.glb").string()};
+    settings.bookmarks = {(folder / "kept").string()};
+    std::vector<std::pair<std::string, std::filesystem::path>> places;
+    for (const FilePlace& p : file_places(settings, folder / "scene")) places.emplace_back(p.name, p.folder);
+    EXPECT_EQ(places, (std::vector<std::pair<std::string, std::filesystem::path>>{{"kept", folder / "kept"},
+                                                                                  {"Home", folder},
+                                                                                  {"Desktop", folder / "Schreibtisch"},
+                                                                                  {"Scene", folder / "scene"},
+                                                                                  {"other", folder / "other"}}));
+    unsetenv("HOME");
+    unsetenv("XDG_CONFIG_HOME");
 }
 
 TEST_F(Files, MissingFolderIsAnError) { EXPECT_FALSE(list_folder(folder / "none", scene_files)); }

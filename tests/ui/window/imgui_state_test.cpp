@@ -3,6 +3,8 @@
 #include "ui/window/imgui_state.h"
 
 #include <array>
+#include <imgui_internal.h> // the scrolling of a row of tabs
+#include <string>
 #include <utility>
 
 namespace blush::TEST_FILE {
@@ -51,6 +53,28 @@ TEST_F(ImGuiState, FieldGetsTheKeyboardThatItIsGiven) {
     EXPECT_TRUE(ImGui::GetIO().WantTextInput);
     frames_to_settle([] {});
     EXPECT_FALSE(ImGui::GetIO().WantTextInput) << "the field is gone";
+}
+
+TEST_F(ImGuiState, RowOfTabsScrollsToItsEnd) {
+    const ImGuiTabBar* bar = nullptr;
+    bool to_last = false;
+    const auto draw = [&] {
+        if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
+        bar = ImGui::GetCurrentContext()->CurrentTabBar;
+        for (int i = 0; i < 5; ++i)
+            if (ImGui::BeginTabItem(("Instrument " + std::to_string(i)).c_str(), nullptr,
+                                    i == 4 && to_last ? ImGuiTabItemFlags_SetSelected : 0))
+                ImGui::EndTabItem();
+        ImGui::EndTabBar();
+    };
+    frames_to_settle(draw);
+    to_last = true;
+    for (int i = 0; i < 3; ++i) in_window(draw); // as after input
+    to_last = false;
+    for (int i = 0; i < 100 && needs_another_frame(); ++i) in_window(draw);
+    ASSERT_TRUE(bar);
+    EXPECT_GT(bar->ScrollingTarget, 0);
+    EXPECT_EQ(bar->ScrollingAnim, bar->ScrollingTarget);
 }
 
 } // namespace

@@ -58,7 +58,6 @@ void draw_no_light_banner(PanelContext& c, const Region& viewport) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em, em * 0.7f});
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin(dark ? "##no light" : "##no light in the file", nullptr, flags)) {
-        if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0; // becomes visible in the frame after the one that measures its size
         ImGui::AlignTextToFramePadding();
         dark ? draw_choices(c) : draw_choices_in_studio(c);
         c.ui.probe.record("No light",

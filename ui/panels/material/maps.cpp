@@ -47,7 +47,6 @@ void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::
     const ImVec2 size = fitted(picture, side), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({std::max(size.x, em * 8) + 2 * padding.x, size.y + em * 2.5f + 2 * padding.y});
     ImGui::BeginTooltip();
-    if (ImGui::IsWindowAppearing()) c.ui.seconds_to_next_frame = 0;
     if (picture.texture) ImGui::Image(picture.texture, size);
     ImGui::TextUnformatted(elided(name, side).c_str());
     ImGui::TextDisabled("%s%s", size_of(texture).c_str(), texture.image && texture.image->bytes.empty() ? ", more than 8 bits" : "");

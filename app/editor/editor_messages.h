@@ -1,0 +1,30 @@
+// Messages about what is rendered: new warnings about the scene, and what the session could not do.
+#pragma once
+
+#include "render/frame.h"
+#include "render/session/render_session.h"
+#include "scene/scene.h"
+#include "ui/window/ui_state.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace blush {
+
+class EditorMessages {
+public:
+    // A file was opened: the next pictures also tell whether the camera sees any object.
+    void opened() { looks_for_objects_ = true; }
+    // For each frame of the current document.
+    void update(const Frame& frame, const Scene& scene, Toasts& toasts);
+    // Shows the raw picture if it cannot be denoised.
+    void update(const SessionStatus& status, UiState& ui);
+
+private:
+    std::shared_ptr<const std::vector<Diagnostic>> known_;
+    bool looks_for_objects_ = false;
+    std::string last_not_continued_;
+};
+
+} // namespace blush
