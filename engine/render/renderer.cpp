@@ -144,14 +144,6 @@ struct Renderer::State {
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
 
-    void take_path_counts(RouletteColumns& columns) {
-        path_counts.resize(max_counted_bounces);
-        for (int k = 0; k < max_counted_bounces; ++k) {
-            const PathCounts more = std::exchange(columns.counts[k], {});
-            PathCounts& sum = path_counts[size_t(k)];
-            sum = {sum.alive + more.alive, sum.rr_applied + more.rr_applied, sum.survived + more.survived};
-        }
-    }
     TileScratch& scratch_of(unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
         fit_columns(*scratch[worker], film);
@@ -319,8 +311,7 @@ PixelRect Renderer::State::rendered_pixels() const {
 bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
     const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
     const PixelRect wanted_pixels = rendered_pixels();
-    const Clock::time_point begun = Clock::now();
-    const int64_t first_tick = ticks();
+    const TickRate rate;
     std::atomic<bool> cut_short{false};
     const bool all_begun = workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
         const int x = int(tile % across) * shape.width, y = int(tile / across) * shape.height;
@@ -334,16 +325,15 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
     });
     for (const auto& used : catching)
         if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
-    const double seconds_per_tick = seconds_since(begun) / double(std::max<int64_t>(ticks() - first_tick, 1));
     for (const auto& used : scratch) {
         if (!used) continue;
         const StageTicks spent = std::exchange(used->stages, {});
-        for (size_t k = 0; k < stages.of.size(); ++k) stages.of[k] += double(spent.of[k]) * seconds_per_tick;
+        add_seconds(stages, spent, rate.seconds_per_tick());
         rays.bounce += std::exchange(used->bounce_rays, 0);
         rays.shadow += std::exchange(used->shadow_rays, 0);
         rays.camera += std::exchange(used->camera_rays, 0);
         truncated += std::exchange(used->truncated_paths, 0);
-        if (used->roulette) take_path_counts(*used->roulette);
+        if (used->roulette) move_counts(used->roulette->counts, path_counts);
     }
     return all_begun && !cut_short;
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <cstddef> // jpeglib.h needs size_t
+#include <cstddef> // libjpeg needs size_t
 #include <cstdio>  // and FILE
 #include <cstring>
 #include <new>

@@ -191,10 +191,7 @@ Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const Rend
     sum.reuse_pilot = a.reuse_pilot ? a.reuse_pilot : b.reuse_pilot;
     sum.path_counts = a.path_counts;
     sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
-    for (size_t k = 0; k < b.path_counts.size(); ++k) {
-        PathCounts& c = sum.path_counts[k];
-        c = {c.alive + b.path_counts[k].alive, c.rr_applied + b.path_counts[k].rr_applied, c.survived + b.path_counts[k].survived};
-    }
+    for (size_t k = 0; k < b.path_counts.size(); ++k) sum.path_counts[k] += b.path_counts[k];
     return sum;
 }
 

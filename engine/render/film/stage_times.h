@@ -21,4 +21,8 @@ template <class T> struct StageSums {
 using StageTicks = StageSums<int64_t>;
 using StageSeconds = StageSums<double>;
 
+inline void add_seconds(StageSeconds& seconds, const StageTicks& ticks, double seconds_per_tick) {
+    for (size_t k = 0; k < seconds.of.size(); ++k) seconds.of[k] += double(ticks.of[k]) * seconds_per_tick;
+}
+
 } // namespace blush
