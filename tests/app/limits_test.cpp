@@ -108,7 +108,7 @@ std::string sheet_file(const TemporaryFolder& folder, uint32_t n) {
 TEST(Limits, InfoSaysThatTreesAreCompactForWantOfMemory) {
     const TemporaryFolder folder;
     const std::string scene = sheet_file(folder, 700);
-    const std::string plenty = "memory suffices for them, and tracing is faster";
+    const std::string plenty = "memory suffices, and tracing is faster";
     EXPECT_NE(test::blush({"info", scene}).out.find(plenty), std::string::npos);
     int compact = 0;
     for (int mib = 600; mib <= 2000; mib += 40) {

@@ -5,6 +5,7 @@
 #include "ui/widgets/plot_drawing.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
+#include "ui/widgets/wrapped_text.h"
 #include "ui/window/theme.h"
 
 #include <fmt/format.h>
@@ -197,7 +198,7 @@ void draw_summary(const ConvergenceView& view) {
                                    points.empty() ? "not known yet" : error_text(points.back().error(view.metric)));
     text += ",  " + slope_text(fit(live->record, Kind::estimated, view.metric, view.axis).slope);
     if (view.target() > 0) text += ",  " + time_left_text(time_left(live->record, Kind::estimated, view.metric, view.target()));
-    ImGui::TextWrapped("%s", text.c_str());
+    wrapped_text(text);
     if (view.denoised && view.waiting > 0)
         quiet_text(fmt::format("{} denoised {} for a raw picture{} accurate enough to measure {} against.", view.waiting,
                                view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or a reference," : "",

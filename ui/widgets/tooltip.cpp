@@ -1,5 +1,7 @@
 #include "ui/widgets/tooltip.h"
 
+#include "ui/widgets/wrapped_text.h"
+
 #include <algorithm>
 
 namespace blush {
@@ -41,11 +43,12 @@ void place_next_tip(const ImVec2& size) { ImGui::SetNextWindowPos(place_tip(ImGu
 void tip_for_last_item(UiState& ui, const char* tip) {
     if (!*tip || !tip_is_due(ui)) return;
     const float wrap = ImGui::GetFontSize() * 24;
-    const ImVec2 text = ImGui::CalcTextSize(tip, nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
+    const std::string lines = wrapped(tip, wrap);
+    const ImVec2 text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({text.x + 2 * padding.x, text.y + 2 * padding.y});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(wrap);
-    ImGui::TextUnformatted(tip);
+    ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ui.probe.record("Tooltip", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
     ImGui::EndTooltip();

@@ -5,6 +5,7 @@
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/widgets/value_text.h"
+#include "ui/widgets/wrapped_text.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -327,9 +328,7 @@ bool section(UiState& ui, const char* name, bool open_at_first) {
 
 void quiet_text(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(text);
     ImGui::PopStyleColor();
 }
 
