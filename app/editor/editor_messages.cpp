@@ -10,13 +10,13 @@ namespace {
 constexpr const char* where_to_find = "File > Import report lists all warnings";
 
 void show(const std::vector<Diagnostic>& warnings, Toasts& toasts) {
-    constexpr size_t most = 4;
+    constexpr size_t max_listed = 4;
     const auto text_of = [](const Diagnostic& d) { return Error{{}, d.what, d.where}.text(); };
     if (warnings.empty()) return;
     if (warnings.size() == 1) return toasts.warn(text_of(warnings[0]), where_to_find);
     std::string details;
-    for (size_t i = 0; i < std::min(warnings.size(), most); ++i) details += text_of(warnings[i]) + "\n";
-    if (warnings.size() > most) details += fmt::format("and {} more\n", warnings.size() - most);
+    for (size_t i = 0; i < std::min(warnings.size(), max_listed); ++i) details += text_of(warnings[i]) + "\n";
+    if (warnings.size() > max_listed) details += fmt::format("and {} more\n", warnings.size() - max_listed);
     toasts.warn(fmt::format("{} warnings about the scene", warnings.size()), details + where_to_find);
 }
 

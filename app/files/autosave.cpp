@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-constexpr uint64_t most_bytes = uint64_t(1) << 28;
+constexpr uint64_t max_bytes = uint64_t(1) << 28;
 
 std::filesystem::path lock_of(std::filesystem::path file) { return file.replace_extension(".lock"); }
 
@@ -37,7 +37,7 @@ std::vector<RecoveryFile> find_recovery_files(const std::filesystem::path& folde
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         if (entry.path().extension() != ".json" || is_locked(lock_of(entry.path()))) continue;
-        const auto text = read_file(entry.path(), most_bytes);
+        const auto text = read_file(entry.path(), max_bytes);
         if (!text) continue;
         Result<Sidecar> sidecar = parse_sidecar({reinterpret_cast<const char*>(text->data()), text->size()});
         if (sidecar) found.push_back({entry.path(), *std::move(sidecar), entry.last_write_time(error)});

@@ -11,7 +11,7 @@ namespace blush {
 namespace {
 
 constexpr unsigned few_elements = 60; // drawing a few elements once per part is cheaper than filling covered pixels
-constexpr size_t most_parts = 8;
+constexpr size_t max_parts = 8;
 
 // As ImGui's clip rectangles: from (x, y) to (z, w).
 using Rect = ImVec4;
@@ -90,7 +90,7 @@ void add_seen(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::ve
     std::vector<Rect> parts{command.ClipRect};
     if (!command.UserCallback)
         for (const Rect& c : covered) parts = without(parts, c);
-    if (parts.size() > 1 && (command.ElemCount > few_elements || parts.size() > most_parts)) parts = {command.ClipRect};
+    if (parts.size() > 1 && (command.ElemCount > few_elements || parts.size() > max_parts)) parts = {command.ClipRect};
     for (const Rect& part : parts) {
         seen.push_back(command);
         seen.back().ClipRect = part;

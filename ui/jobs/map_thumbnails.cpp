@@ -8,7 +8,7 @@
 namespace blush {
 namespace {
 
-constexpr int most_samples = 8; // source pixels averaged per thumbnail pixel, per axis
+constexpr int max_samples = 8; // source pixels averaged per thumbnail pixel, per axis
 
 float value_at(const Image& image, int x, int y, int channel) {
     const size_t i = (size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels) + size_t(image.channels < 3 ? 0 : channel);
@@ -24,7 +24,7 @@ SmallImage small_image(const Image& image) {
     const double shrink = std::max(1.0, double(std::max(image.width, image.height)) / map_preview_side);
     SmallImage small{std::max(1, int(image.width / shrink)), std::max(1, int(image.height / shrink)), {}};
     small.rgb.reserve(size_t(small.width) * size_t(small.height) * 3);
-    const int samples = std::clamp(int(std::ceil(shrink)), 1, most_samples);
+    const int samples = std::clamp(int(std::ceil(shrink)), 1, max_samples);
     const auto place = [&](int pixel, int sample, int count, int of) {
         return std::min(int((pixel + (sample + 0.5) / samples) * of / count), of - 1);
     };

@@ -71,9 +71,9 @@ double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
 // Distance from a point inside a room to its wall: a surface that faces the point. The shell of an object around the point faces
 // away and is skipped. Infinite in the open.
 double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& direction) {
-    constexpr int most_shells = 16;
+    constexpr int max_shells = 16;
     Vec3d origin = from;
-    for (int i = 0; i < most_shells; ++i) {
+    for (int i = 0; i < max_shells; ++i) {
         const auto hit = cast_ray(scene, origin, direction, [](Id<Node>) { return true; });
         if (!hit) break;
         const double distance = length(hit->position - from);

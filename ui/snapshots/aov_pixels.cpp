@@ -15,7 +15,7 @@ using Show = PictureView::Show;
 
 constexpr Vec3 nothing_hit{0.004f, 0.012f, 0.06f};
 // Range of relative errors of the heat map, as powers of ten.
-constexpr float least_error = 1e-3f, error_decades = 3;
+constexpr float min_error = 1e-3f, error_decades = 3;
 
 struct AovRange {
     float low = 0, high = 1;
@@ -47,7 +47,7 @@ Vec3 grey(float t) { return {t, t, t}; }
 
 Vec3 normal_color(const Vec3& n) { return n == Vec3{0, 0, 0} ? n : linear((n + Vec3{1, 1, 1}) * 0.5f); }
 
-float error_share(float relative) { return std::log10(std::max(relative, 1e-12f) / least_error) / error_decades; }
+float error_share(float relative) { return std::log10(std::max(relative, 1e-12f) / min_error) / error_decades; }
 
 struct Ranges {
     AovRange depth, samples;

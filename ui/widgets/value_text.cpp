@@ -133,10 +133,10 @@ std::optional<Vec3> pasted_color(std::string_view text) {
 }
 
 std::string shown_of(std::string_view text) {
-    constexpr size_t most = 32;
+    constexpr size_t max_shown = 32;
     std::string shown;
-    for (const char c : trimmed(text).substr(0, most)) shown += c >= ' ' && c < 127 ? c : '?';
-    return text.size() > most ? shown + "..." : shown;
+    for (const char c : trimmed(text).substr(0, max_shown)) shown += c >= ' ' && c < 127 ? c : '?';
+    return text.size() > max_shown ? shown + "..." : shown;
 }
 
 } // namespace blush

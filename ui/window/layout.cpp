@@ -7,24 +7,24 @@ namespace blush {
 namespace {
 
 // Font sizes.
-constexpr float narrowest_panel = 10, max_panel_width = 45, narrowest_viewport = 16, lowest_viewport = 9, narrowest_dock = 15,
-                lowest_dock = 6;
+constexpr float min_panel_width = 10, max_panel_width = 45, min_viewport_width = 16, min_viewport_height = 9, min_dock_width = 15,
+                min_dock_height = 6;
 
 float max_dock_width(const Region& room, float font_size) {
-    return std::max(room.width - narrowest_viewport * font_size, narrowest_dock * font_size);
+    return std::max(room.width - min_viewport_width * font_size, min_dock_width * font_size);
 }
 
 float right_dock_width(const Region& room, float font_size, const ViewportInsets& beside) {
     if (!beside.right || !has_right_dock(room, font_size)) return 0;
-    return std::clamp(std::round(beside.docks.right * font_size), narrowest_dock * font_size, max_dock_width(room, font_size));
+    return std::clamp(std::round(beside.docks.right * font_size), min_dock_width * font_size, max_dock_width(room, font_size));
 }
 
 // Subtracts docks and strip from the room.
 void divide_room(Layout& l, float bottom_edge, float font_size, const ViewportInsets& beside) {
-    const float body = bottom_edge - l.room.y, picture = std::min(lowest_viewport * font_size, std::floor(body * 0.45f));
+    const float body = bottom_edge - l.room.y, picture = std::min(min_viewport_height * font_size, std::floor(body * 0.45f));
     float free = std::max(body - beside.time - picture, 0.f);
     float dock = beside.bottom ? std::clamp(std::round(beside.docks.bottom * font_size), 0.f, std::max(free - beside.strip, 0.f)) : 0;
-    if (beside.bottom) dock = std::min(std::max(dock, std::round(lowest_dock * font_size)), free);
+    if (beside.bottom) dock = std::min(std::max(dock, std::round(min_dock_height * font_size)), free);
     free -= dock;
     const float strip = std::min(beside.strip, free), right = right_dock_width(l.room, font_size, beside);
     const float left_of_dock = l.room.width - right;
@@ -37,12 +37,12 @@ void divide_room(Layout& l, float bottom_edge, float font_size, const ViewportIn
 
 } // namespace
 
-bool has_right_dock(const Region& room, float font_size) { return room.width >= (narrowest_viewport + narrowest_dock) * font_size; }
+bool has_right_dock(const Region& room, float font_size) { return room.width >= (min_viewport_width + min_dock_width) * font_size; }
 
 Layout lay_out(float width, float height, float menu_height, float status_height, float font_size, const Splitters& splitters,
                const ViewportInsets& beside) {
     float left = std::round(splitters.outliner * font_size), right = std::round(splitters.inspector * font_size);
-    const float available = std::max(width - narrowest_viewport * font_size, 0.f);
+    const float available = std::max(width - min_viewport_width * font_size, 0.f);
     if (left + right > available) {
         const float shrink = available / (left + right);
         left = std::floor(left * shrink);
@@ -61,25 +61,25 @@ Layout lay_out(float width, float height, float menu_height, float status_height
 }
 
 Splitters drag_outliner(Splitters splitters, float x, float font_size) {
-    splitters.outliner = std::clamp(x / font_size, narrowest_panel, max_panel_width);
+    splitters.outliner = std::clamp(x / font_size, min_panel_width, max_panel_width);
     return splitters;
 }
 
 Splitters drag_inspector(Splitters splitters, float x, float width, float font_size) {
-    splitters.inspector = std::clamp((width - x) / font_size, narrowest_panel, max_panel_width);
+    splitters.inspector = std::clamp((width - x) / font_size, min_panel_width, max_panel_width);
     return splitters;
 }
 
 DockSizes drag_right_dock(DockSizes sizes, float x, const Layout& layout, float font_size) {
     const Region& room = layout.room;
-    sizes.right = std::clamp((room.x + room.width - x) / font_size, narrowest_dock, max_dock_width(room, font_size) / font_size);
+    sizes.right = std::clamp((room.x + room.width - x) / font_size, min_dock_width, max_dock_width(room, font_size) / font_size);
     return sizes;
 }
 
 DockSizes drag_bottom_dock(DockSizes sizes, float y, const Layout& layout, float font_size) {
     const Region& dock = layout.bottom_dock;
-    const float highest = dock.height + layout.viewport.height - lowest_viewport * font_size;
-    sizes.bottom = std::clamp((dock.y + dock.height - y) / font_size, lowest_dock, std::max(highest / font_size, lowest_dock));
+    const float highest = dock.height + layout.viewport.height - min_viewport_height * font_size;
+    sizes.bottom = std::clamp((dock.y + dock.height - y) / font_size, min_dock_height, std::max(highest / font_size, min_dock_height));
     return sizes;
 }
 

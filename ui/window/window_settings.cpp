@@ -10,7 +10,7 @@
 namespace blush {
 namespace {
 
-constexpr size_t max_panel_settings = 1000, most_ids = 100000, max_floating_text = 1 << 16;
+constexpr size_t max_panel_settings = 1000, max_ids = 100000, max_floating_text = 1 << 16;
 constexpr size_t max_snapshots = 64, max_bookmarks = 64, max_instruments = 64;
 
 // Reads the entry if it exists with the right type and range; otherwise `value` is unchanged.
@@ -40,7 +40,7 @@ void read_ids(const nlohmann::json& json, const char* key, std::vector<uint32_t>
     const auto list = json.find(key);
     if (list == json.end() || !list->is_array()) return;
     for (const auto& id : *list)
-        if (id.is_number_unsigned() && ids.size() < most_ids) ids.push_back(id.get<uint32_t>());
+        if (id.is_number_unsigned() && ids.size() < max_ids) ids.push_back(id.get<uint32_t>());
 }
 
 SceneMemory read_scene(const nlohmann::json& json) {

@@ -70,8 +70,8 @@ Result<std::optional<PixelRect>> parse_region(std::string_view text) {
     int x = 0, y = 0, width = 0, height = 0;
     const bool numbers = parts.size() == 4 && parse_number(parts[0], x) && parse_number(parts[1], y) && parse_number(parts[2], width) &&
                          parse_number(parts[3], height);
-    constexpr int most = 65536; // maximum width and height in pixels
-    if (numbers && x >= 0 && y >= 0 && width > 0 && height > 0 && std::max({x, y, width, height}) <= most)
+    constexpr int max_side = 65536; // maximum width and height in pixels
+    if (numbers && x >= 0 && y >= 0 && width > 0 && height > 0 && std::max({x, y, width, height}) <= max_side)
         return std::optional(PixelRect{x, y, x + width, y + height});
     return Error{.what = fmt::format("a region must be X,Y,WIDTH,HEIGHT in pixels, not \"{}\"", text)};
 }
@@ -228,8 +228,8 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 
 void follow_aspect(RenderOptions& options, float aspect) {
     if (!(aspect > 0) || (options.width_given && options.height_given)) return;
-    static constexpr double most = 1e6; // rejected by validate()
-    const auto pixels = [](double side) { return int(std::lround(std::clamp(side, 1.0, most))); };
+    static constexpr double max_side = 1e6; // rejected by validate()
+    const auto pixels = [](double side) { return int(std::lround(std::clamp(side, 1.0, max_side))); };
     RenderSettings& s = options.settings;
     if (options.height_given)
         s.width = pixels(double(s.height) * double(aspect));
