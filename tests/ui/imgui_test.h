@@ -32,4 +32,17 @@ protected:
     }
 };
 
+// Within one frame.
+class ImGuiFrameTest : public ImGuiTest {
+protected:
+    void SetUp() override {
+        ImGuiTest::SetUp();
+        ImGui::NewFrame();
+    }
+    void TearDown() override {
+        ImGui::EndFrame();
+        ImGuiTest::TearDown();
+    }
+};
+
 } // namespace blush::test

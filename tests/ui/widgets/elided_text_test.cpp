@@ -7,17 +7,7 @@ namespace {
 
 float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
-class ElidedText : public test::ImGuiTest {
-protected:
-    void SetUp() override {
-        ImGuiTest::SetUp();
-        ImGui::NewFrame();
-    }
-    void TearDown() override {
-        ImGui::EndFrame();
-        ImGuiTest::TearDown();
-    }
-};
+using ElidedText = test::ImGuiFrameTest;
 
 TEST_F(ElidedText, KeepsTextThatFits) {
     EXPECT_EQ(elided("card", width_of("card")), "card");

@@ -12,16 +12,8 @@
 namespace blush::TEST_FILE {
 namespace {
 
-class PlotDrawing : public test::ImGuiTest {
+class PlotDrawing : public test::ImGuiFrameTest {
 protected:
-    void SetUp() override {
-        ImGuiTest::SetUp();
-        ImGui::NewFrame();
-    }
-    void TearDown() override {
-        ImGui::EndFrame();
-        ImGuiTest::TearDown();
-    }
     static constexpr int width = 40, height = 30;
     template <class Draw> std::vector<float> drawn(const Draw& draw) {
         ImDrawList list(ImGui::GetDrawListSharedData());

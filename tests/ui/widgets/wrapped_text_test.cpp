@@ -9,17 +9,7 @@ namespace {
 
 float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
-class WrappedText : public test::ImGuiTest {
-protected:
-    void SetUp() override {
-        ImGuiTest::SetUp();
-        ImGui::NewFrame();
-    }
-    void TearDown() override {
-        ImGui::EndFrame();
-        ImGuiTest::TearDown();
-    }
-};
+using WrappedText = test::ImGuiFrameTest;
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
