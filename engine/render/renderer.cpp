@@ -31,8 +31,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
 bool hides_environment(const Environment& e) { return e.kind != Environment::Kind::none && !e.visible_to_camera; }
 
 // True during the pilot, after its first half was stored.
@@ -173,7 +171,7 @@ void Renderer::State::begin_film(Clock::time_point begun) {
     reuse = ReuseChoice(settings, scene);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
-    seconds_setup = seconds_since(begun);
+    seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
@@ -268,8 +266,9 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(most_samples, run.count - done));
         kernel->render(context, job, tile);
-        const CatcherColumns* shadows = shadows_of(context, job, worker);
         StageTimer timer(tile.stages);
+        const CatcherColumns* shadows = shadows_of(context, job, worker);
+        timer.end(Stage::shadow);
         film.add(job, tile, settings.seed, diagnose, shadows);
         timer.end(Stage::film);
     }

@@ -68,11 +68,7 @@ struct Side {
         renderer->resolve(frame);
         seconds += took;
         rays = {rays.camera + frame.rays.camera, rays.bounce + frame.rays.bounce, rays.shadow + frame.rays.shadow};
-        for (size_t k = 0; k < counts.size(); ++k) {
-            counts[k].alive += frame.path_counts[k].alive;
-            counts[k].rr_applied += frame.path_counts[k].rr_applied;
-            counts[k].survived += frame.path_counts[k].survived;
-        }
+        for (size_t k = 0; k < counts.size(); ++k) counts[k] += frame.path_counts[k];
         for (Batch* batch : {&whole, &by_batch[size_t(round % batches)]}) {
             batch->pixels.resize(frame.rgba.size() / 4);
             for (size_t i = 0; i < batch->pixels.size(); ++i) batch->pixels[i].add(luminance_at(frame, i));
