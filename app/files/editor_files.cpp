@@ -207,7 +207,7 @@ void EditorFiles::reset_document(Document& document, UiState& ui, Project projec
 std::optional<EditorFiles::KeptEdits> EditorFiles::edits_on(Opened& opened, const Document& document, const UiState& ui) const {
     if (purpose_ != Purpose::reload || !keep_edits_) return {};
     const bool modified = document.modified();
-    if (ui.studio_banner && !modified) return {}; // the studio is anew: the file may have lights by now
+    if (ui.studio_banner && !modified) return {}; // the studio is set up again: the file may have lights by now
     const Scene& theirs = opened.imported.scene;
     const bool saved_edits_are_gone = written_by_blush_ && !has_our_settings(opened.imported);
     // Edits are relative to the scene as another program wrote it, or else to the scene as opened.
