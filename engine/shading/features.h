@@ -24,7 +24,7 @@ enum class Feature : uint32_t {
     orthographic = 1u << 14,
     sphere_lights = 1u << 15,  // sphere lights, and point and spot lights with a radius
     light_profiles = 1u << 16, // some light's emission depends on direction: spots, spread, IES profiles
-    light_tree = 1u << 17,     // enough lights for a light tree
+    light_tree = 1u << 17,     // several lights: selected at the receiver
     links = 1u << 18,          // some light is linked to objects for illumination or shadows
     clearcoat = 1u << 19,      // some material has a clear coat
     sheen = 1u << 20,

@@ -1,5 +1,5 @@
 // Light records, one per emitter: an emissive triangle, a point without size, a sphere, a sun, or the environment; and the table
-// that selects one with a probability proportional to its power (Shirley, Wang and Zimmerman 1996), or from many by a light tree.
+// that selects one: by a light tree in proportion to its estimated irradiance at the receiver, or by power if there is only one.
 //
 // Photometric units as in glTF: candela for points (irradiance I cos / r^2), lux for suns, nits for triangles and spheres. Spots
 // and IES lights are points with a profile. Not modelled: KHR_lights_punctual's `range`, which has no physical counterpart.
@@ -9,7 +9,7 @@
 #include "core/sampling.h"
 #include "shading/features.h"
 #include "shading/light_profile.h"
-#include "shading/light_tree.h"
+#include "shading/light_selection.h"
 
 #include <cstdint>
 
@@ -24,7 +24,7 @@ struct LightRecord {
     int32_t triangle;
     int32_t profile;   // index of the ProfileRecord that scales the emission by direction, -1: none
     int32_t object;    // sphere: Id<Node>.value of its node
-    int32_t slot;      // with a tree: its selection slot, which is > 0; in the tree ~ its entry
+    int32_t slot;      // in the tree: ~ its entry; distant: its index among the distant lights, or in slot_lights if they are one
     Vec3 position;     // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
     Vec3 edge1, edge2; // triangle: vertices 1 and 2 minus vertex 0
     // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
@@ -40,14 +40,15 @@ enum LightFlag : int32_t {
     light_hidden = 8,   // sun: disk invisible to the camera
 };
 
-// Lights are selected by power through slots: one per light, or with a tree one for the tree and one for each light outside it.
 struct LightTables {
     const LightRecord* lights = nullptr;
-    const uint32_t* thresholds = nullptr; // by slot: make_thresholds of the powers
-    int32_t count = 0;                    // of slots
-    const int32_t* slot_lights = nullptr; // with a tree, by slot: the light; the first slot is the tree
-    LightTree tree;
-    int32_t environment = -1; // index of the environment, -1: none
+    int32_t count = 0; // the first lights, which light sampling can select
+    LightTree tree;    // empty: they are selected by power
+    // make_thresholds of the powers of the first lights; or, with a tree, of the distant lights if they are one to the tree.
+    const uint32_t* thresholds = nullptr;
+    const int32_t* slot_lights = nullptr; // these distant lights
+    int32_t slot_count = 0;               // 0: they are selected one by one
+    int32_t environment = -1;             // index of the environment, -1: none
     int32_t samples_environment = 0;
     const int32_t* suns = nullptr; // indices of the suns with a disk: escaping rays can hit them
     int32_t sun_count = 0;
@@ -62,28 +63,32 @@ namespace blush::inline BLUSH_ISA {
 // A light, its selection probability, and the remaining random number: uniform in [0, 1).
 template <Features S, class F>
 DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, const Pair<F>& random, const Mask<F>& active) {
-    const DiscreteSample<F> slot = sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
     if constexpr (S.has(Feature::light_tree)) {
-        if (table.tree.nodes) {
-            const Mask<F> in_tree = as_mask(slot.index == 0);
-            const TreeSample<F> leaf = sample_tree<F>(table.tree, to, slot.remainder, random.bits_y, active && in_tree);
-            return {select(in_tree, leaf.light, gather(table.slot_lights, slot.index)),
-                    select(in_tree, slot.probability * leaf.probability, slot.probability),
-                    select(in_tree, leaf.remainder, slot.remainder)};
+        if (!table.tree.empty()) {
+            const TreeSample<F> s = sample_tree<F>(table.tree, to, unit_float<F>(random.bits_x), random.bits_y, active);
+            const Mask<F> among_distant = active && as_mask(s.light < 0);
+            if (!any(among_distant)) return {s.light, s.probability, s.remainder};
+            const UInt<F> slot_bits = (to_unsigned(to_int(F(s.remainder * 0x1p24f))) << 8) | (pcg_hash(random.bits_x) >> 24);
+            const DiscreteSample<F> slot = sample_discrete<F>(table.thresholds, Int<F>(0), table.slot_count, slot_bits);
+            return {select(among_distant, gather(table.slot_lights, slot.index), s.light),
+                    select(among_distant, s.probability * slot.probability, s.probability),
+                    select(among_distant, slot.remainder, s.remainder)};
         }
     }
-    return slot;
+    return sample_discrete<F>(table.thresholds, Int<F>(0), table.count, random.bits_x);
 }
 
 // Probability that pick_light selects `light` for that receiver.
 template <Features S, class F>
 F light_probability(const LightTables& table, const Receiver<F>& to, const Int<F>& light, const Mask<F>& active) {
     if constexpr (S.has(Feature::light_tree)) {
-        if (table.tree.nodes) {
+        if (!table.tree.empty()) {
             const Int<F> slot = gather_field(table.lights, &LightRecord::slot, light);
-            const F p = discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), max(slot, Int<F>(0)));
-            const Mask<F> in_tree = active && as_mask(slot < 0);
-            return any(in_tree) ? select(in_tree, p * tree_probability<F>(table.tree, to, Int<F>(~slot), light, in_tree), p) : p;
+            const Mask<F> among_distant = active && as_mask(slot >= 0) && Mask<F>(table.slot_count > 0);
+            const F p = tree_probability<F>(table.tree, to, select(among_distant, Int<F>(0), slot), light, active);
+            if (!any(among_distant)) return p;
+            const Int<F> own = select(among_distant, slot, Int<F>(0));
+            return select(among_distant, p * discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.slot_count), own), p);
         }
     }
     return discrete_probability<F>(table.thresholds, Int<F>(0), Int<F>(table.count), light);

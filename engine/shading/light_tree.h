@@ -10,7 +10,7 @@
 // The root is the same for all paths: its children are evaluated one after the other, with a path in each lane. Below the root it is
 // the other way round: the children of one node fill the lanes, for one path after the other. So bounds are read without gathers.
 //
-// Only lights at finite distance are in the tree. It is one slot next to the suns and the environment, selected by power.
+// Lights at infinity, suns and the environment, are selected beside the children of the root, by their irradiance at the receiver.
 #pragma once
 
 #include "core/block.h"
@@ -54,6 +54,15 @@ struct MeshLightTree {
 };
 constexpr int direction_cells = 16, patch_bits = 6, mesh_patches = 1 << patch_bits; // cells along each side of the octahedral map
 
+// A light at infinity; or all of them, if there are many.
+struct DistantLight {
+    Vec3 direction;  // unit, towards a sun; zero: the environment or all lights
+    float sin_angle; // sine of a sun's angular radius; else 1
+    float power;     // pi times the irradiance on a surface that faces it; for the tree's powers see build_light_table
+    int32_t light;   // its record; -1: all of them
+};
+constexpr int max_distant_lights = 16;
+
 // A leaf of the scene's tree: a light or a mesh.
 struct LightTreeEntry {
     const MeshLightTree* mesh; // null: a light
@@ -62,9 +71,17 @@ struct LightTreeEntry {
 };
 
 struct LightTree {
-    const LightTreeNode* nodes = nullptr; // of the scene's tree, the first is the root; null: there is no tree
+    const LightTreeNode* nodes = nullptr; // of the scene's tree, the first is the root
     const LightTreeEntry* entries = nullptr;
+    const int32_t* root_lights = nullptr; // by child of the root: its light; -1: a node or a mesh
+    const DistantLight* distant = nullptr;
+    int32_t root_count = 0, distant_count = 0; // of the root's children, which is 0 without nodes
+
+    bool empty() const { return root_count + distant_count == 0; }
 };
+// The share of samples that is distributed evenly over {the tree, each distant light} where they can illuminate the receiver
+// (defensive mixture, Hesterberg 1995): the others may be occluded.
+constexpr float even_root_share = 1.f / 64;
 
 } // namespace blush
 
@@ -351,94 +368,5 @@ template <class F> struct ReceiverLanes {
     }
     Receiver<float> operator[](int i) const { return {{rows[0][i], rows[1][i], rows[2][i]}, {rows[3][i], rows[4][i], rows[5][i]}}; }
 };
-
-template <class F> struct TreeSample {
-    Int<F> light;
-    F probability; // 0: no light of the tree can illuminate the receiver
-    F remainder;   // uniform in [0, 1), independent of the light
-};
-
-// Traverses by `u` in [0, 1), which has 24 bits, and by more random bits.
-template <class F>
-TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& random_bits, const Mask<F>& active) {
-    const LightTreeNode& root = tree.nodes[0];
-    const TreeReceiver<F> receiver = tree_receiver<F>(to.position, to.normal);
-    F importances[max_tree_children], sum = F(0.f);
-    Mask<F> like[max_tree_children], afar[max_tree_children];
-    int count = 0;
-    for (; count < max_tree_children && root.child[count] != 0; ++count) {
-        const ChildImportance<F> c = child_importance<F>(child_bounds<F>(root, count), receiver);
-        importances[count] = c.value;
-        like[count] = c.like;
-        afar[count] = c.afar;
-        sum = sum + c.value;
-    }
-    // Selects the last child with non-zero importance whose range begins at or below the random number.
-    const F at = u * sum;
-    Int<F> chosen = 0;
-    F begin = F(0.f), importance = F(0.f), passed = F(0.f);
-    Mask<F> is_like = Mask<F>(false), is_afar = Mask<F>(false);
-    for (int k = 0; k < count; ++k) {
-        const Mask<F> here = importances[k] > F(0.f) && passed <= at;
-        chosen = select(here, Int<F>(k), chosen);
-        begin = select(here, passed, begin);
-        importance = select(here, importances[k], importance);
-        is_like = select(here, like[k], is_like);
-        is_afar = select(here, afar[k], is_afar);
-        passed = passed + importances[k];
-    }
-    const Mask<F> lit = active && importance > F(0.f);
-    const UInt<F> random = pcg_hash(random_bits);
-    const F within = (at - begin + unit_float<F>(random) * (sum * 0x1p-24f)) / max(importance, F(1e-37f));
-    const F probability = importance / max(sum, F(1e-37f)), remainder = min(max(within, F(0.f)), F(one_minus_epsilon));
-
-    const ReceiverLanes<F> receivers(to);
-    const unsigned like_bits = bits(is_like), afar_bits = bits(is_afar);
-    int32_t lights[width<F>]{};
-    float probabilities[width<F>]{}, remainders[width<F>]{};
-    for_each_lane(bits(lit), [&](int i) {
-        const TreePick pick = pick_below_root(tree, receivers[i], lane(chosen, i), like_bits >> i & 1, afar_bits >> i & 1,
-                                              {0, lane(probability, i), lane(remainder, i)}, lane(random, i));
-        lights[i] = pick.light;
-        probabilities[i] = pick.probability;
-        remainders[i] = pick.remainder;
-    });
-    return {load<Int<F>>(lights), load<F>(probabilities), load<F>(remainders)};
-}
-
-// Probability that sample_tree selects `light`, of that entry.
-template <class F>
-F tree_probability(const LightTree& tree, const Receiver<F>& to, const Int<F>& entry, const Int<F>& light, const Mask<F>& active) {
-    int32_t children[width<F>]{};
-    unsigned there = 0;
-    for_each_lane(bits(active), [&](int i) {
-        const uint32_t trail = tree.entries[lane(entry, i)].trail;
-        children[i] = int32_t(trail & uint32_t(max_tree_children - 1));
-        there |= unsigned(trail != no_trail) << i;
-    });
-    if (!there) return F(0.f);
-    const LightTreeNode& root = tree.nodes[0];
-    const TreeReceiver<F> receiver = tree_receiver<F>(to.position, to.normal);
-    const Int<F> taken = load<Int<F>>(children);
-    F importance = F(0.f), sum = F(0.f);
-    Mask<F> like = Mask<F>(false), afar = Mask<F>(false);
-    for (int k = 0; k < max_tree_children && root.child[k] != 0; ++k) {
-        const ChildImportance<F> c = child_importance<F>(child_bounds<F>(root, k), receiver);
-        const Mask<F> here = as_mask(taken == k);
-        importance = select(here, c.value, importance);
-        like = select(here, c.like, like);
-        afar = select(here, c.afar, afar);
-        sum = sum + c.value;
-    }
-    const unsigned lit = bits(Mask<F>(importance > F(0.f))) & there, like_bits = bits(like), afar_bits = bits(afar);
-    const F of_child = importance / max(sum, F(1e-37f));
-    const ReceiverLanes<F> receivers(to);
-    float probabilities[width<F>]{};
-    for_each_lane(lit, [&](int i) {
-        probabilities[i] = lane(of_child, i) * probability_below_root(tree, receivers[i], tree.entries[lane(entry, i)], lane(light, i),
-                                                                      like_bits >> i & 1, afar_bits >> i & 1);
-    });
-    return load<F>(probabilities);
-}
 
 } // namespace blush::inline BLUSH_ISA

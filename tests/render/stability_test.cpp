@@ -107,9 +107,9 @@ struct GroupNoise {
     double max, median;
 };
 constexpr GroupNoise group_noise[] = {
-    {"furnace", 0.065, 0.0031},     {"scale", 0.040, 0},           {"lights", 0.18, 0.00062}, {"worlds", 0.016, 0.0028},
+    {"furnace", 0.065, 0.0031},     {"scale", 0.0052, 0},          {"lights", 0.18, 0.00062}, {"worlds", 0.016, 0.0028},
     {"microfacet", 0.073, 0.00062}, {"dielectric", 0.18, 0.00033}, {"absorption", 0.070, 0},  {"mirrors", 0, 0},
-    {"grazing", 0.00085, 0},        {"geometry", 0.089, 0.0026},   {"camera", 0, 0},          {"film", 0.19, 0.0055},
+    {"grazing", 0.00085, 0},        {"geometry", 0.089, 0.0026},   {"camera", 0, 0},          {"film", 0.19, 0.0056},
     {"health", 0.013, 0},
 };
 

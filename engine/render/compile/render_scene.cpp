@@ -117,7 +117,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     // A backdrop is visible but lights nothing.
     const bool emits_light = scene.environment.lights_scene && needs_map && environment_.emits_light;
     lights_ = build_light_table(scene, mesh_lights_, light_nodes_, spheres_, {emits_light, to_float(mean), environment_.sampled_share},
-                                extent_, aim_, workers);
+                                extent_.origin, aim_, workers);
     lights_.fill(tables_.lights);
     update_caustic_casters(scene, settings);
     update_groups(groups);
@@ -139,7 +139,7 @@ Features RenderScene::compute_features(const Scene& scene, const RenderSettings&
     add(Feature::point_lights, lights_.point_lights > 0);
     add(Feature::suns, lights_.sun_lights > 0);
     add(Feature::sphere_lights, lights_.sphere_lights > 0);
-    add(Feature::light_tree, !lights_.tree.nodes.empty());
+    add(Feature::light_tree, !lights_.tree.empty());
     add(Feature::light_profiles, !lights_.profiles.empty());
     const bool is_backdrop = !scene.environment.lights_scene && scene.environment.visible_to_camera && has_environment_map_;
     add(Feature::environment, lights_.environment >= 0 || is_backdrop);

@@ -32,7 +32,7 @@ constexpr FeatureText feature_texts[] = {
     {Feature::point_lights, "point lights", "the scene has points or spots of zero size", "the scene has no points or spots of zero size"},
     {Feature::sphere_lights, "sphere lights", "the scene has sphere lights", "the scene has no sphere lights"},
     {Feature::light_profiles, "light profiles", "a light has an IES profile or a spread", "no light has an IES profile or a spread"},
-    {Feature::light_tree, "light tree", "the scene has many lights", "the scene has few lights"},
+    {Feature::light_tree, "light tree", "the scene has several lights", "the scene has one light at most"},
     {Feature::suns, "suns", "the scene has a sun", "the scene has no sun"},
     {Feature::environment, "environment", "the scene has an environment", "the scene has no environment"},
     {Feature::instances, "instances", "a mesh is shared or large", "every mesh is small and used once"},
@@ -140,9 +140,9 @@ void add_light_table(FeatureReport& feature_report, const LightTable& lights, Ne
                               : all == 0                     ? "nothing emits light"
                               : aim == NeeLights::all_lights ? even_environment
                                                              : bsdf_sampling_only,
-                              light_table_bytes(used && lights.tree.nodes.empty() ? lights.count : all)});
-    if (!lights.tree.nodes.empty())
-        feature_report.push_back({"lights", "light tree", true, "the scene has many lights", int64_t(lights.tree.memory_bytes())});
+                              light_table_bytes(used && lights.tree.empty() ? lights.count : all)});
+    if (!lights.tree.empty())
+        feature_report.push_back({"lights", "light tree", true, "the scene has several lights", int64_t(lights.tree.memory_bytes())});
     if (lights.unsampled_triangles > 0)
         feature_report.push_back({"lights", "mesh lights beyond the limit", false,
                                   fmt::format("no more than {} triangles are sampled", max_mesh_lights),

@@ -41,12 +41,11 @@ LightProfiles::Added LightProfiles::add(const Light& light, const Affined& world
     record.cone_offset = 1;
     record.first = -1;
     set_frame(record, world_from_node, flat);
-    double share = 1;
+    double rms = 1;
     if (is_spot) {
         const double inner = std::cos(double(light.inner_cone_radians)), outer = std::cos(double(light.outer_cone_radians));
         record.cone_scale = float(1 / std::max(0.001, inner - outer)); // as KHR_lights_punctual recommends
         record.cone_offset = float(-outer) * record.cone_scale;
-        share = 0.5 * (1 - 0.5 * (inner + outer));
     }
     if (has_spread) {
         const double half = 0.5 * double(light.spread_radians), tangent = std::tan(half);
@@ -55,10 +54,10 @@ LightProfiles::Added LightProfiles::add(const Light& light, const Affined& world
     }
     if (has_table) {
         add_table(record, *light.ies);
-        share *= std::max(luminous_flux(*light.ies) / (4 * std::numbers::pi * double(light.ies->peak)), 1e-4);
+        rms = std::sqrt(std::max(luminous_flux(*light.ies) / (4 * std::numbers::pi * double(light.ies->peak)), 1e-4));
     }
     records_.push_back(record);
-    return {int32_t(records_.size()) - 1, share};
+    return {int32_t(records_.size()) - 1, rms};
 }
 
 void LightProfiles::add_table(ProfileRecord& record, const IesProfile& p) {

@@ -12,11 +12,11 @@ namespace blush {
 
 class LightProfiles {
 public:
-    // The profile of `light` on a node with this transform, and the share of the light's flux that it leaves; -1 and 1 for a
-    // light without a profile.
+    // The profile of `light` on a node with this transform, -1: none; and the root mean square of its IES profile relative to the peak,
+    // as if that were either the peak or dark; 1 without.
     struct Added {
         int32_t profile = -1;
-        double share = 1;
+        double rms = 1;
     };
     Added add(const Light& light, const Affined& world_from_node);
 

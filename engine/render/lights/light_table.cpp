@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
+#include <ranges>
 #include <utility>
 
 namespace blush {
@@ -92,7 +95,7 @@ void add_spheres(TableBuilder& b, const Scene& scene, const std::vector<SphereLi
         if (light.kind != Light::Kind::sphere) record.emission = to_float(to_double(record.emission) * (1 / disk));
         ++b.table.sphere_lights;
         const LightBounds bounds = sphere_bounds(record.position, sphere.radius, light, transforms(sphere.node).world_from_node);
-        b.add_findable(record, sphere.node, 4 * std::numbers::pi * disk * luminance_of(record.emission) * profile.share, &bounds);
+        b.add_findable(record, sphere.node, std::numbers::pi * disk * luminance_of(record.emission) * profile.rms, &bounds);
     }
 }
 
@@ -108,14 +111,14 @@ LightRecord sun_record(const Vec3& towards, float angle_radians, const Vec3& lux
     return record;
 }
 
-void add_sun(TableBuilder& b, const LightRecord& record, Id<Node> node, double lux, double scene_radius) {
+void add_sun(TableBuilder& b, const LightRecord& record, Id<Node> node, double lux) {
     if (record.cone_height > 0) b.table.suns.push_back(int32_t(b.table.records.size()));
     ++b.table.sun_lights;
-    const double power = std::numbers::pi * scene_radius * scene_radius * lux;
+    const double power = std::numbers::pi * lux;
     record.cone_height > 0 ? b.add_findable(record, node, power) : b.add(record, node, power);
 }
 
-void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node>>& nodes, double scene_radius, const Vec3d& origin) {
+void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node>>& nodes, const Vec3d& origin) {
     WorldTransforms transforms(scene);
     for (const Id<Node> id : nodes) {
         const Light* light = scene.lights.find(scene.nodes.find(id)->light);
@@ -125,7 +128,7 @@ void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node
         if (light->kind == Light::Kind::sun) {
             LightRecord record = sun_record(to_float(normalize(world.z)), light->angle_radians, emission);
             if (!light->visible_to_camera) record.flags |= light_hidden;
-            add_sun(b, record, id, luminance_of(emission), scene_radius);
+            add_sun(b, record, id, luminance_of(emission));
             continue;
         }
         const LightProfiles::Added profile = b.table.profiles.add(*light, world);
@@ -136,90 +139,118 @@ void add_punctual(TableBuilder& b, const Scene& scene, const std::vector<Id<Node
         record.emission = emission;
         ++b.table.point_lights;
         const LightBounds bounds = sphere_bounds(record.position, 0, *light, world);
-        b.add(record, id, 4 * std::numbers::pi * luminance_of(emission) * profile.share, &bounds);
+        b.add(record, id, std::numbers::pi * luminance_of(emission) * profile.rms, &bounds);
     }
 }
 
-// A part of the samples is distributed uniformly over all lights (uniform_share).
-std::vector<double> with_defensive_mixture(std::span<const double> powers, std::span<const double> factors) {
-    std::vector<double> weights(powers.begin(), powers.end());
-    double total = 0, emitting = 0;
+// Powers times factors, where every emitting light keeps a share of its own power; a share of the power of the lights at finite distance
+// is distributed uniformly over them (uniform_share). Scaled by a power of two, so that a scene at another scale renders the same bits.
+std::vector<double> selection_weights(const LightTable& table, std::span<const double> factors) {
+    const double max_factor = factors.empty() ? 1 : std::max(std::ranges::max(factors), std::numeric_limits<double>::min());
+    const auto is_near = [&](size_t i) { return table.records[i].slot < 0; };
+    std::vector<double> weights(table.powers.size());
+    double near = 0, num_near = 0, total = 0;
     for (size_t i = 0; i < weights.size(); ++i) {
-        if (!factors.empty()) weights[i] *= factors[i];
+        const double factor = factors.empty() ? 1 : factors[i] / max_factor;
+        weights[i] = ((1 - uniform_share) * factor + uniform_share) * table.powers[i];
         total += weights[i];
-        emitting += powers[i] > 0;
+        if (!is_near(i) || !(table.powers[i] > 0)) continue;
+        near += weights[i];
+        ++num_near;
     }
-    for (size_t i = 0; i < weights.size(); ++i)
-        if (powers[i] > 0) weights[i] = (1 - uniform_share) * (total > 0 ? weights[i] / total : 0) + uniform_share / emitting;
+    const double scale = total > 0 ? std::ldexp(1.0, -std::ilogb(total)) : 1;
+    for (size_t i = 0; i < weights.size(); ++i) {
+        if (!(table.powers[i] > 0)) continue;
+        if (is_near(i)) weights[i] = (1 - uniform_share) * weights[i] + uniform_share * near / num_near;
+        weights[i] *= scale;
+    }
     return weights;
 }
 
-// Powers of the tree's entries, and by slot; of a table with a tree.
-struct TablePowers {
-    std::vector<double> entries, slots;
-};
-TablePowers table_powers(const LightTable& table, std::span<const double> powers) {
-    TablePowers p{std::vector(table.tree.entries.size(), 0.0), std::vector(table.slot_lights.size(), 0.0)};
-    for (size_t i = 0; i < powers.size(); ++i) {
-        const int32_t slot = table.records[i].slot;
-        (slot < 0 ? p.entries[size_t(~slot)] : p.slots[size_t(slot)]) += powers[i];
+// Sets the powers of the tree's entries and of the distant lights; without a tree, the thresholds of all.
+void set_selection(LightTable& table, std::span<const double> weights) {
+    LightTreeTable& tree = table.tree;
+    if (tree.empty()) {
+        table.thresholds = make_thresholds(weights);
+        return;
     }
-    for (const double power : p.entries) p.slots[0] += power;
-    return p;
+    std::vector<double> entries(tree.entries.size(), 0.0), distant(table.slot_lights.size(), 0.0);
+    for (size_t i = 0; i < weights.size(); ++i) {
+        if (table.powers[i] == 0) continue;
+        const int32_t slot = table.records[i].slot;
+        if (slot < 0)
+            entries[size_t(~slot)] += weights[i];
+        else if (table.slot_lights.empty())
+            tree.distant[size_t(slot)].power = float(weights[i]);
+        else
+            distant[size_t(slot)] = weights[i];
+    }
+    set_light_tree_powers(tree.nodes, entries);
+    if (distant.empty()) return;
+    tree.distant[0].power = float(std::accumulate(distant.begin(), distant.end(), 0.0));
+    table.thresholds = make_thresholds(distant);
 }
 
-// Puts lights at finite distance into a tree, which uses the first slot; each other light gets its own slot. False, and no tree,
-// if no light at finite distance emits.
-bool add_tree(TableBuilder& b, const std::vector<double>& powers, const Workers& workers) {
-    LightTable& table = b.table;
-    table.slot_lights = {0};
+// The table's distant lights; one for all of them if there are too many.
+void add_distant(LightTable& table) {
     for (size_t i = 0; i < table.records.size(); ++i) {
         LightRecord& record = table.records[i];
-        if (record.slot < 0 || (int32_t(i) == table.environment && !table.samples_environment)) continue;
-        record.slot = int32_t(table.slot_lights.size());
+        if (record.slot < 0 || table.powers[i] == 0) continue;
+        const bool sun = record.kind == int32_t(LightKind::sun);
+        const float height = record.cone_height; // 1 - cos
+        record.slot = int32_t(table.tree.distant.size());
+        table.tree.distant.push_back(
+            {sun ? record.position : Vec3{0, 0, 0}, sun ? std::sqrt(height * std::max(0.f, 2 - height)) : 1.f, 0, int32_t(i)});
         table.slot_lights.push_back(int32_t(i));
     }
-    const TablePowers p = table_powers(table, powers);
-    for (size_t i = 0; i < b.bounds.size(); ++i) b.bounds[i].power = p.entries[i];
-    LightTreeShape shape = build_light_tree(b.bounds, workers);
-    if (shape.nodes.empty()) {
+    if (table.slot_lights.size() <= size_t(max_distant_lights))
         table.slot_lights.clear();
-        return false;
-    }
+    else
+        table.tree.distant = {{{0, 0, 0}, 1, 0, -1}};
+}
+
+// Selects lights by their irradiance at the receiver. False, and no tree, if fewer than two emit.
+bool add_tree(TableBuilder& b, const std::vector<double>& powers, const Workers& workers) {
+    LightTable& table = b.table;
+    for (size_t i = 0; i < table.records.size(); ++i)
+        if (table.records[i].slot < 0) b.bounds[size_t(~table.records[i].slot)].power += powers[i];
+    LightTreeShape shape = build_light_tree(b.bounds, workers);
+    const int64_t near = shape.items.empty() ? 0 : b.luminaires;
+    const auto distant = std::ranges::count_if(std::views::iota(size_t(0), powers.size()),
+                                               [&](size_t i) { return table.records[i].slot >= 0 && powers[i] > 0; });
+    if (near + distant < 2) return false;
     for (size_t i = 0; i < shape.trails.size(); ++i) table.tree.entries[i].trail = shape.trails[i];
     for (LightTreeNode& node : shape.nodes)
         for (int32_t& child : node.child)
             if (child < 0) child = ~shape.items[size_t(~child)];
-    set_light_tree_powers(shape.nodes, p.entries);
     table.tree.nodes = std::move(shape.nodes);
-    table.thresholds = make_thresholds(p.slots);
-    table.count = int32_t(table.slot_lights.size());
+    table.tree.find_root_lights();
+    add_distant(table);
     return true;
 }
 
 } // namespace
 
 LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const std::vector<Id<Node>>& nodes,
-                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Extent& extent, NeeLights aim,
+                             const std::vector<SphereLight>& spheres, const SkyLight& sky, const Vec3d& origin, NeeLights aim,
                              const Workers& workers) {
     TableBuilder b;
     b.aim = aim;
     if (const int corners = disk_corners(scene, nodes); corners < max_disk_corners) b.table.fewer_disk_corners = corners;
     b.add_all(meshes);
-    add_spheres(b, scene, spheres, extent.origin);
-    const double radius = extent.bounds.empty ? 1 : std::max(extent.bounds.radius(), 1e-30);
-    add_punctual(b, scene, nodes, radius, extent.origin);
+    add_spheres(b, scene, spheres, origin);
+    add_punctual(b, scene, nodes, origin);
     if (const SkySun sun = sun_of(scene.environment); luminance_of(sun.lux) > 0) {
         LightRecord record = sun_record(sun.direction, sun_angle_radians, sun.lux);
         if (!scene.environment.visible_to_camera) record.flags |= light_hidden;
-        add_sun(b, record, {}, luminance_of(sun.lux), radius);
+        add_sun(b, record, {}, luminance_of(sun.lux));
     }
     if (sky.emits_light) {
         LightRecord record{};
         record.kind = int32_t(LightKind::environment);
         record.profile = -1;
         b.table.environment = int32_t(b.table.records.size());
-        b.add_findable(record, {}, 4 * std::numbers::pi * std::numbers::pi * radius * radius * luminance_of(sky.mean) * sky.sampled_share);
+        b.add_findable(record, {}, 2 * std::numbers::pi * std::numbers::pi * luminance_of(sky.mean) * sky.sampled_share);
         b.table.samples_environment = b.table.powers.back() > 0;
     }
     b.table.count = int32_t(b.table.records.size());
@@ -227,12 +258,9 @@ LightTable build_light_table(const Scene& scene, const MeshLights& meshes, const
     if (sky.emits_light && !b.table.samples_environment) --b.table.count;
     while (aim == NeeLights::zero_size_lights && b.table.count > 0 && b.table.powers[size_t(b.table.count) - 1] == 0) --b.table.count;
     if (b.table.records.empty()) b.add({}, {}, 1);
-    const std::vector<double> powers = with_defensive_mixture(b.table.powers, {});
-    const bool many = aim == NeeLights::all_lights && b.luminaires >= min_lights_for_a_tree;
-    if (!many || !add_tree(b, powers, workers)) {
-        b.table.tree = {};
-        b.table.thresholds = make_thresholds(powers);
-    }
+    const std::vector<double> weights = selection_weights(b.table, {});
+    if (!add_tree(b, weights, workers)) b.table.tree = {};
+    set_selection(b.table, weights);
     return std::move(b.table);
 }
 
@@ -246,16 +274,7 @@ bool samples_other_lights(const Scene& scene, const MeshLights& meshes, const st
            luminance_of(sun_of(scene.environment).lux) > 0;
 }
 
-void set_light_weights(LightTable& table, std::span<const double> factors) {
-    const std::vector<double> weights = with_defensive_mixture(table.powers, factors);
-    if (table.slot_lights.empty()) {
-        table.thresholds = make_thresholds(weights);
-        return;
-    }
-    const TablePowers p = table_powers(table, weights);
-    set_light_tree_powers(table.tree.nodes, p.entries);
-    table.thresholds = make_thresholds(p.slots);
-}
+void set_light_weights(LightTable& table, std::span<const double> factors) { set_selection(table, selection_weights(table, factors)); }
 
 int64_t light_table_bytes(int64_t lights) { return lights * int64_t(sizeof(LightRecord) + sizeof(uint32_t)); }
 
@@ -264,6 +283,7 @@ void LightTable::fill(LightTables& t) const {
     t.thresholds = thresholds.data();
     t.count = count;
     t.slot_lights = slot_lights.data();
+    t.slot_count = int32_t(slot_lights.size());
     t.tree = tree.tables();
     t.environment = environment;
     t.samples_environment = samples_environment;

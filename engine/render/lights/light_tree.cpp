@@ -359,6 +359,19 @@ size_t MeshTree::memory_bytes() const {
                 patch_thresholds_.capacity() + patch_begins_.capacity());
 }
 
+void LightTreeTable::find_root_lights() {
+    root_lights.clear();
+    if (nodes.empty()) return;
+    for (const int32_t child : nodes[0].child) {
+        if (child == 0) break;
+        root_lights.push_back(child < 0 && !entries[size_t(~child)].mesh ? entries[size_t(~child)].light : -1);
+    }
+}
+
+LightTree LightTreeTable::tables() const {
+    return {nodes.data(), entries.data(), root_lights.data(), distant.data(), int32_t(root_lights.size()), int32_t(distant.size())};
+}
+
 size_t LightTreeTable::memory_bytes() const {
     size_t bytes = nodes.capacity() * sizeof(LightTreeNode) + entries.capacity() * sizeof(LightTreeEntry);
     for (const auto& mesh : meshes) bytes += mesh->memory_bytes();

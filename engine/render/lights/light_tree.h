@@ -70,17 +70,20 @@ struct LightTreeTable {
     std::vector<LightTreeNode> nodes; // a negative child is ~index of its entry
     std::vector<LightTreeEntry> entries;
     std::vector<std::shared_ptr<const MeshTree>> meshes; // of the entries
+    std::vector<int32_t> root_lights;                    // by child of the root: its light; -1: a node or a mesh
+    std::vector<DistantLight> distant;                   // at most max_distant_lights
 
-    // Valid until the table changes; null if empty.
-    LightTree tables() const { return {nodes.empty() ? nullptr : nodes.data(), entries.data()}; }
+    bool empty() const { return nodes.empty() && distant.empty(); }
+    // Fills root_lights.
+    void find_root_lights();
+    // Valid until the table changes.
+    LightTree tables() const;
     size_t memory_bytes() const;
 };
 
 // The share of samples that are distributed uniformly over all lights, and within a mesh over its triangles (defensive mixture,
 // Hesterberg 1995): a light that is weak in the whole scene may be the only one in a room. Other lights lose at most this share.
 constexpr double uniform_share = 1.0 / 64;
-// With fewer lights, sampling by power alone is faster than traversal.
-constexpr int64_t min_lights_for_a_tree = 32;
 // Meshes with fewer emissive triangles have no tree of their own: their triangles are leaves of the scene's tree.
 constexpr int64_t min_triangles_for_a_tree = 32;
 // Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB.

@@ -120,7 +120,7 @@ void add_triangle(MeshLights& lights, SceneTables& tables, const GeometryPool& g
         tables.lights.lights = lights.records.data();
         nits = mean_varying_luminance(tables, lights.records.size() - 1, e.factor);
     }
-    const double power = std::numbers::pi * area * nits * (light.flags & light_two_sided ? 2 : 1);
+    const double power = std::numbers::pi * area * nits;
     lights.nodes.push_back(Id<Node>{uint32_t(geometry.parts()[e.part].object)});
     lights.powers.push_back(e.sampled && light.inverse_area > 0 ? usable_power(power) : 0);
 }
@@ -200,7 +200,7 @@ MeshLights build_mesh_lights(const Scene& scene, const GeometryPool& geometry, c
         const int64_t triangles = geometry.triangle_count(part);
         const Id<Node> body{uint32_t(geometry.parts()[part].object)};
         const Light* area_light = light_of_expanded_mesh(scene, body);
-        lights.luminaires += area_light ? 1 : triangles;
+        lights.luminaires += area_light ? 1 : (triangles + 1) / 2;
         lights.emissive_triangles += triangles;
         const int32_t profile = area_light ? lights.profiles.add(*area_light, transforms(body).world_from_node).profile : -1;
         // A ray that hits the light reads its profile.

@@ -118,7 +118,7 @@ protected:
         return under_map(texels, 30).environment;
     }
     static RenderSettings settings(bool compensates, Strategy strategy = Strategy::mis) {
-        RenderSettings s = settings_for(16, 16, strategy == Strategy::mis ? 256 : 1024);
+        RenderSettings s = settings_for(16, 16, strategy == Strategy::mis ? 1024 : 4096);
         s.mis_compensation = compensates;
         s.strategy = strategy;
         s.seed = 1 + uint32_t(strategy) + (compensates ? 8 : 0);

@@ -104,7 +104,7 @@ protected:
 TEST_P(MeshLightTree, SelectsTrianglesWithTheStatedProbability) {
     const Compiled compiled(scene());
     const LightTables& t = compiled.lights();
-    ASSERT_NE(t.tree.nodes, nullptr);
+    ASSERT_FALSE(t.tree.empty());
     Random random;
     const std::vector<Receiver<float>> all = receivers();
     for (size_t r = 0; r < all.size(); ++r) {
@@ -202,7 +202,7 @@ TEST(MeshLightTrees, LeaveTheSurfaceOfABallToOtherLights) {
     place_light(scene, light, at({0, 4, 0}));
     const Compiled compiled(scene);
     const LightTables& t = compiled.lights();
-    ASSERT_NE(t.tree.nodes, nullptr);
+    ASSERT_FALSE(t.tree.empty());
     const int64_t bulb = compiled.scene.info().emissive_triangles;
     ASSERT_EQ(t.lights[bulb].kind, int32_t(LightKind::point));
     for (int i = 0; i < 1000; ++i) {
@@ -216,7 +216,7 @@ TEST(MeshLightTrees, HaveAMillionTriangles) {
     constexpr int count = 1'000'000;
     const Compiled compiled(glowing(count, 1), 2);
     const LightTables& t = compiled.lights();
-    ASSERT_NE(t.tree.nodes, nullptr);
+    ASSERT_FALSE(t.tree.empty());
     EXPECT_EQ(compiled.scene.info().emissive_triangles, count);
     Random random;
     int64_t found = 0; // receivers that look away from the mesh find few lights

@@ -1,0 +1,142 @@
+// Selection of one of several lights for a receiver: at the root, among the children of the light tree and the distant lights, with a path
+// in each lane; then down the tree (light_tree.h).
+#pragma once
+
+#include "shading/light_tree.h"
+
+namespace blush::inline BLUSH_ISA {
+
+// Importances of the root's children, then of the distant lights.
+template <class F> struct RootImportances {
+    F of[max_tree_children + max_distant_lights];
+    Mask<F> like[max_tree_children], afar[max_tree_children]; // of the root's children
+    F sum;
+};
+template <class F> void find_root_importances(const LightTree& tree, const TreeReceiver<F>& to, RootImportances<F>& root) {
+    F near = F(0.f), distant = F(0.f), groups = F(0.f);
+    for (int k = 0; k < tree.root_count; ++k) {
+        const ChildImportance<F> c = child_importance<F>(child_bounds<F>(tree.nodes[0], k), to);
+        root.of[k] = c.value;
+        root.like[k] = c.like;
+        root.afar[k] = c.afar;
+        near = near + c.value;
+    }
+    root.sum = near;
+    if (tree.distant_count == 0) return;
+    F* const of_distant = root.of + tree.root_count;
+    for (int k = 0; k < tree.distant_count; ++k) {
+        const DistantLight& light = tree.distant[k];
+        const F cosine = dot(to.normal, splat<F>(light.direction)) + F(light.sin_angle);
+        of_distant[k] = light.power * select(to.all_sides, F(1.f), min(max(cosine, F(0.f)), F(1.f)));
+        distant = distant + of_distant[k];
+        groups = groups + select(of_distant[k] > F(0.f), F(1.f), F(0.f));
+    }
+    groups = groups + select(near > F(0.f), F(1.f), F(0.f));
+    const F even = even_root_share * (near + distant) / max(groups, F(1.f));
+    const F of_near = (1.f - even_root_share) + min(F(even / select(near > F(0.f), near, F(infinity))), F(1e30f));
+    root.sum = F(0.f);
+    for (int k = 0; k < tree.root_count; ++k) {
+        root.of[k] = root.of[k] * of_near;
+        root.sum = root.sum + root.of[k];
+    }
+    for (int k = 0; k < tree.distant_count; ++k) {
+        of_distant[k] = select(of_distant[k] > F(0.f), F(of_distant[k] * (1.f - even_root_share) + even), F(0.f));
+        root.sum = root.sum + of_distant[k];
+    }
+}
+
+template <class F> struct TreeSample {
+    Int<F> light;  // -1: all distant lights
+    F probability; // 0: no light of the tree can illuminate the receiver
+    F remainder;   // uniform in [0, 1), independent of the light
+};
+
+// Traverses by `u` in [0, 1), which has 24 bits, and by more random bits.
+template <class F>
+TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& random_bits, const Mask<F>& active) {
+    RootImportances<F> root;
+    find_root_importances<F>(tree, tree_receiver<F>(to.position, to.normal), root);
+    // Selects the last child with non-zero importance whose range begins at or below the random number.
+    const F at = u * root.sum;
+    Int<F> chosen = 0, light = 0;
+    F begin = F(0.f), importance = F(0.f), passed = F(0.f);
+    Mask<F> is_like = Mask<F>(false), is_afar = Mask<F>(false), is_below = Mask<F>(false);
+    for (int k = 0; k < tree.root_count + tree.distant_count; ++k) {
+        const Mask<F> here = root.of[k] > F(0.f) && passed <= at;
+        begin = select(here, passed, begin);
+        importance = select(here, root.of[k], importance);
+        passed = passed + root.of[k];
+        if (k < tree.root_count) {
+            chosen = select(here, Int<F>(k), chosen);
+            is_like = select(here, root.like[k], is_like);
+            is_afar = select(here, root.afar[k], is_afar);
+        }
+        const int32_t its_light = k < tree.root_count ? tree.root_lights[k] : tree.distant[k - tree.root_count].light;
+        light = select(here, Int<F>(its_light), light);
+        is_below = select(here, Mask<F>(k < tree.root_count && its_light < 0), is_below);
+    }
+    const Mask<F> lit = active && importance > F(0.f);
+    light = select(lit, light, Int<F>(0));
+    const UInt<F> random = pcg_hash(random_bits);
+    const F within = (at - begin + unit_float<F>(random) * (root.sum * 0x1p-24f)) / max(importance, F(1e-37f));
+    const F probability = select(lit, F(importance / max(root.sum, F(1e-37f))), F(0.f));
+    const F remainder = min(max(within, F(0.f)), F(one_minus_epsilon));
+    const unsigned below = bits(Mask<F>(lit && is_below));
+    if (!below) return {light, probability, remainder};
+
+    const ReceiverLanes<F> receivers(to);
+    const unsigned like_bits = bits(is_like), afar_bits = bits(is_afar);
+    alignas(64) int32_t lights[width<F>];
+    alignas(64) float probabilities[width<F>], remainders[width<F>];
+    store(lights, light);
+    store(probabilities, probability);
+    store(remainders, remainder);
+    for_each_lane(below, [&](int i) {
+        const TreePick pick = pick_below_root(tree, receivers[i], lane(chosen, i), like_bits >> i & 1, afar_bits >> i & 1,
+                                              {0, probabilities[i], remainders[i]}, lane(random, i));
+        lights[i] = pick.light;
+        probabilities[i] = pick.probability;
+        remainders[i] = pick.remainder;
+    });
+    return {load<Int<F>>(lights), load<F>(probabilities), load<F>(remainders)};
+}
+
+// Probability that sample_tree selects `light`: a distant light where `slot` >= 0, else of entry ~slot.
+template <class F>
+F tree_probability(const LightTree& tree, const Receiver<F>& to, const Int<F>& slot, const Int<F>& light, const Mask<F>& active) {
+    const Mask<F> near = active && as_mask(slot < 0);
+    Mask<F> there = active;
+    Int<F> taken = slot + tree.root_count;
+    if (any(near)) {
+        const UInt<F> trail = gather_field(tree.entries, &LightTreeEntry::trail, select(near, Int<F>(~slot), Int<F>(0)));
+        there = there && !(near && as_mask(trail == UInt<F>(no_trail)));
+        taken = select(near, to_signed(UInt<F>(trail & uint32_t(max_tree_children - 1))), taken);
+    }
+    if (!any(there)) return F(0.f);
+    RootImportances<F> root;
+    find_root_importances<F>(tree, tree_receiver<F>(to.position, to.normal), root);
+    F importance = F(0.f);
+    Mask<F> like = Mask<F>(false), afar = Mask<F>(false), is_below = Mask<F>(false);
+    for (int k = 0; k < tree.root_count + tree.distant_count; ++k) {
+        const Mask<F> here = as_mask(taken == k);
+        importance = select(here, root.of[k], importance);
+        if (k >= tree.root_count) continue;
+        like = select(here, root.like[k], like);
+        afar = select(here, root.afar[k], afar);
+        is_below = select(here, Mask<F>(tree.root_lights[k] < 0), is_below);
+    }
+    const Mask<F> lit = there && importance > F(0.f);
+    const F of_child = select(lit, F(importance / max(root.sum, F(1e-37f))), F(0.f));
+    const unsigned below = bits(Mask<F>(lit && is_below)), like_bits = bits(like), afar_bits = bits(afar);
+    if (!below) return of_child;
+    const ReceiverLanes<F> receivers(to);
+    alignas(64) float probabilities[width<F>];
+    store(probabilities, of_child);
+    for_each_lane(below, [&](int i) {
+        probabilities[i] = probabilities[i] * probability_below_root(tree, receivers[i], tree.entries[~lane(slot, i)], lane(light, i),
+                                                                     like_bits >> i & 1, afar_bits >> i & 1);
+    });
+    return load<F>(probabilities);
+}
+
+} // namespace blush::inline BLUSH_ISA
