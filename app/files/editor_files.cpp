@@ -391,7 +391,7 @@ std::optional<RunningJob> EditorFiles::running() const {
     };
     if (import_job_) {
         RunningJob job = show(import_job_, true);
-        if (preview_) job.what += "; shown without the others";
+        if (preview_) job.what += "; the scene is shown meanwhile";
         return job;
     }
     if (environment_job_) return show(environment_job_, true);
