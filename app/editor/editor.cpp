@@ -110,7 +110,7 @@ private:
     RenderSession session_;
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
     uint64_t last_revision_ = 0;
-    uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
+    uint64_t last_preview_ = 0; // revision of the last scene shown while textures load; 0: none
     bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
     bool remembered_follow_viewport_ = true; // the saved setting, before the command line
     Layout layout_;                          // of the last UI frame
@@ -275,8 +275,7 @@ void Editor::draw_regions(PanelContext& c) {
     c.mixing = mix_.mixing();
     begin_region("Viewport", l.viewport, {.padded = false, .background = false});
     pace_.begin_picture(Clock::now());
-    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, "Textures are loading: plain colours are shown instead")
-                              : viewport_.draw(c, pace_);
+    image_ = files_.preview() ? viewport_.draw_alone(c, pace_, files_.preview_note().c_str()) : viewport_.draw(c, pace_);
     pace_.end_picture(Clock::now());
     end_region();
     begin_region("Status", l.status, {.padded = false});
@@ -437,7 +436,7 @@ void Editor::draw() {
         state.samples = shown->samples;
         state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
-        state.shown = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.shown = shown->revision <= last_preview_ ? "while textures load" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
     }
     const bool drawn = window_->end_frame();
     state.inputs = window_->settled_inputs();

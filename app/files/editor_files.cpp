@@ -49,6 +49,13 @@ void list_conflicts(const std::vector<std::string>& conflicts, const std::string
     report.diagnostics.insert(report.diagnostics.begin(), all.begin(), all.end());
 }
 
+// Images may be there at an eighth of their size.
+std::string note_of_preview(size_t textures, size_t shown) {
+    if (shown == 0) return "Textures are loading: plain colours are shown instead";
+    if (shown < textures) return fmt::format("Textures are loading: {} of {} are shown, plain colours for the others", shown, textures);
+    return "Textures are loading: some are shown blurred";
+}
+
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
 
 // A file not written by Blush that has no light gets studio lighting, instead of a black picture; unless `--light` or
@@ -357,6 +364,7 @@ EditorFiles::Finished EditorFiles::poll(Document& document, UiState& ui) {
             Project project = opened_project(*early, document.project());
             if (early->lit) project.scene = *early->lit;
             project.render.spp = std::min(project.render.spp, project.render.first_sample + enough_samples);
+            preview_note_ = note_of_preview(early->imported.origin.indices.textures.size(), project.scene.textures.size());
             preview_.emplace(std::move(project));
         }
     }
@@ -383,7 +391,7 @@ std::optional<RunningJob> EditorFiles::running() const {
     };
     if (import_job_) {
         RunningJob job = show(import_job_, true);
-        if (preview_) job.what += "; shown without textures";
+        if (preview_) job.what += "; the scene is shown meanwhile";
         return job;
     }
     if (environment_job_) return show(environment_job_, true);

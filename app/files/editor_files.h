@@ -74,6 +74,8 @@ public:
     void save(const std::filesystem::path& file, const Project& project);
     // Preview of the scene that is being opened, while its textures are loading: a separate document. Null: none.
     Document* preview() { return preview_ ? &*preview_ : nullptr; }
+    // What the preview lacks, for the picture.
+    const std::string& preview_note() const { return preview_note_; }
     bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);
     // Reads an image for the texture slot in ui.map, in the background.
@@ -156,6 +158,7 @@ private:
     bool keep_edits_ = false;           // for a reload
     std::shared_ptr<EarlyScene> early_; // of the running import
     std::optional<Document> preview_;
+    std::string preview_note_;
     Project saving_; // the document when the save started
     std::unique_ptr<BackgroundJob<Result<Opened>>> import_job_;
     std::unique_ptr<BackgroundJob<Result<SavedGltf>>> save_job_;

@@ -1,6 +1,6 @@
 // SIMD lanes: "a number per path". F is float (one path, the reference in tests) or Wide, a SIMD register. Shading is templated
-// on F: `select` replaces if, and `if (any(mask))` skips work that no lane needs. Only this file and core/block.h use intrinsics,
-// for what std::experimental::simd lacks: gather, compress, shifts of lanes.
+// on F: `select` replaces if, and `if (any(mask))` skips work that no lane needs. Only this file, core/block.h and
+// core/lane_pointers.h use intrinsics, for what std::experimental::simd lacks: gather, compress, shifts of lanes.
 #pragma once
 
 #include "core/isa.h"

@@ -1,8 +1,9 @@
-// Image textures: glTF's wrap modes and filters, and mip levels, over tables that hold the texels of all images of a scene.
+// Image textures: glTF's wrap modes and filters, and mip levels, over texels that lie where their images do.
 // Texels are linearised before filtering, as in sRGB samplers of GPUs; filtering encoded values would darken every edge.
 #pragma once
 
 #include "core/half.h"
+#include "core/lane_pointers.h"
 #include "core/math.h"
 
 #include <array>
@@ -11,20 +12,24 @@ namespace blush {
 
 enum TextureWrap : int32_t { wrap_repeat, wrap_clamp, wrap_mirror };
 enum TextureFilter : int32_t { filter_linear, filter_nearest };
-// Storage and colour encoding of an image's texels. Alpha is always linear.
+// Type and colour encoding of an image's texels. Alpha is always linear.
 enum TextureEncoding : int32_t {
-    encoding_srgb8,   // rgba8, colour sRGB-encoded
-    encoding_linear8, // rgba8
-    encoding_half,    // rgba16f
-    encoding_float32, // rgba32f
+    encoding_srgb8, // bytes, colour sRGB-encoded
+    encoding_linear8,
+    encoding_half,
+    encoding_float32,
 };
 
-// One mip level of an image.
+// One mip level of an image. All values are finite.
 struct TextureLevel {
-    int32_t offset; // of the first texel, in texels, within its pool
+    const void* texels; // top row first, tightly packed; at least four bytes
     int32_t width, height;
     int32_t encoding; // TextureEncoding
+    int32_t channels; // 4, or 3: alpha is 1
 };
+
+// So that the bytes of an image are counted in 32 bits.
+constexpr int64_t max_texels = int64_t(1) << 28;
 
 struct TextureRecord {
     int32_t first_level;    // the image itself; smaller levels follow, each half as wide and high
@@ -45,14 +50,10 @@ struct TextureUse {
     float texels_per_uv; // of the full image, per unit of length in the UV set: mean over directions
 };
 
-// Pools hold four channels per texel, top row first; all values are finite.
 struct TextureTables {
     const TextureRecord* textures = nullptr;
     const TextureLevel* levels = nullptr;
     const TextureUse* uses = nullptr;
-    const uint32_t* rgba8 = nullptr;       // red in the lowest byte; below 2^31 texels
-    const uint32_t* rgba16f = nullptr;     // two per texel, red and blue in the lower bits; below 2^30 texels
-    const float* rgba32f = nullptr;        // below 2^29 texels
     const float* srgb_to_linear = nullptr; // of the 256 byte values
     int32_t uv_sets = 0;                   // number of UV sets in the uses
 };
@@ -112,6 +113,41 @@ template <class F> Vec4T<F> decode_texel(const TextureTables& tables, const UInt
     return select(is_srgb, Vec4T<F>{gather(table, r), gather(table, g), gather(table, b), linear.w}, linear);
 }
 
+// Texels of one mip level per lane.
+template <class F> struct Texels {
+    Pointers<F> first;
+    Int<F> channels;
+    Mask<F> opaque; // three channels
+};
+
+// Texel `place` of bytes. Three are read together with the byte before them, so that nothing beyond the image is read.
+template <class F> Vec4T<F> byte_texel(const TextureTables& tables, const Texels<F>& texels, const Int<F>& place, const Mask<F>& is_srgb) {
+    const Mask<F> with_byte_before = texels.opaque && as_mask(place > 0);
+    const Int<F> offset = place * texels.channels - select(with_byte_before, Int<F>(1), Int<F>(0));
+    const UInt<F> word = gather_words(texels.first, to_unsigned(offset));
+    const UInt<F> rgba = select(with_byte_before, UInt<F>(word >> 8), word);
+    return decode_texel<F>(tables, select(texels.opaque, UInt<F>(rgba | 0xff000000u), rgba), is_srgb);
+}
+
+template <class F> Vec4T<F> half_texel(const Texels<F>& texels, const Int<F>& place) {
+    const Int<F> offset = place * texels.channels * 2;
+    const Int<F> next = offset + select(texels.opaque, Int<F>(2), Int<F>(4)); // green and blue, or blue and alpha
+    const Int<F> rg = to_signed(gather_words(texels.first, to_unsigned(offset)));
+    const Int<F> last = to_signed(gather_words(texels.first, to_unsigned(next)));
+    const F first = half_value<F>(Int<F>(last & 0x7fff)), second = half_value<F>(Int<F>((last >> 16) & 0x7fff));
+    return {half_value<F>(Int<F>(rg & 0x7fff)), half_value<F>(Int<F>((rg >> 16) & 0x7fff)), select(texels.opaque, second, first),
+            select(texels.opaque, F(1.f), second)};
+}
+
+template <class F> Vec4T<F> float_texel(const Texels<F>& texels, const Int<F>& place) {
+    const UInt<F> offset = to_unsigned(place) * to_unsigned(texels.channels) * 4u;
+    const auto channel = [&](const UInt<F>& from) {
+        return float_from_bits(to_signed(gather_words(texels.first, UInt<F>(offset + from))));
+    };
+    const F alpha = channel(select(texels.opaque, UInt<F>(0u), UInt<F>(12u)));
+    return {channel(UInt<F>(0u)), channel(UInt<F>(4u)), channel(UInt<F>(8u)), select(texels.opaque, F(1.f), alpha)};
+}
+
 // The mip levels for a footprint of so many texels: `finer` and, with this weight, the next coarser one. The weight grows from
 // one power of two to the next. Up to one texel wide only the image itself is used.
 template <class F> struct TextureBlend {
@@ -132,28 +168,18 @@ template <class F> [[gnu::noinline]] Vec4T<F> texture_level(const TextureTables&
     const Int<F> width = gather_field(levels, &TextureLevel::width, level), height = gather_field(levels, &TextureLevel::height, level);
     const TexturePair<F> x = texture_pair<F>(s, width, wrap_u, nearest);
     const TexturePair<F> y = texture_pair<F>(t, height, wrap_v, nearest);
-    const Int<F> offset = gather_field(levels, &TextureLevel::offset, level);
+    const Int<F> channels = gather_field(levels, &TextureLevel::channels, level);
+    const Texels<F> texels{gather_pointers<F>(levels, &TextureLevel::texels, level), channels, as_mask(channels == 3)};
     const Int<F> encoding = gather_field(levels, &TextureLevel::encoding, level);
     const Mask<F> is_float = reads && as_mask(encoding == encoding_float32), is_half = reads && as_mask(encoding == encoding_half);
     const Mask<F> is_bytes = reads && !is_float && !is_half, is_srgb = as_mask(encoding == encoding_srgb8);
     const auto texel = [&](const Int<F>& column, const Int<F>& row) {
-        const Int<F> place = offset + row * width + column;
+        const Int<F> place = row * width + column;
+        const auto among = [&](const Mask<F>& lanes) { return select(lanes, place, Int<F>(0)); };
         Vec4T<F> c{F(1.f), F(1.f), F(1.f), F(1.f)};
-        if (any(is_bytes)) {
-            c = select(is_bytes, decode_texel<F>(tables, gather(tables.rgba8, select(is_bytes, place, Int<F>(0))), is_srgb), c);
-        }
-        if (any(is_half)) {
-            const Int<F> i = select(is_half, place, Int<F>(0)) * 2;
-            const Int<F> rg = to_signed(gather(tables.rgba16f, i)), ba = to_signed(gather(tables.rgba16f + 1, i));
-            const auto low = [](const Int<F>& pair) { return half_value<F>(Int<F>(pair & 0x7fff)); };
-            const auto high = [](const Int<F>& pair) { return half_value<F>(Int<F>((pair >> 16) & 0x7fff)); };
-            c = select(is_half, Vec4T<F>{low(rg), high(rg), low(ba), high(ba)}, c);
-        }
-        if (any(is_float)) {
-            const Int<F> i = select(is_float, place, Int<F>(0)) * 4;
-            const float* p = tables.rgba32f;
-            c = select(is_float, Vec4T<F>{gather(p, i), gather(p + 1, i), gather(p + 2, i), gather(p + 3, i)}, c);
-        }
+        if (any(is_bytes)) c = select(is_bytes, byte_texel<F>(tables, texels, among(is_bytes), is_srgb), c);
+        if (any(is_half)) c = select(is_half, half_texel<F>(texels, among(is_half)), c);
+        if (any(is_float)) c = select(is_float, float_texel<F>(texels, among(is_float)), c);
         return c;
     };
     const Vec4T<F> top = lerp(texel(x.first, y.first), texel(x.second, y.first), x.weight);

@@ -99,7 +99,8 @@ TEST(EditorFiles, PreviewIsShownThenTheSceneReplacesTheDocument) {
         EXPECT_TRUE(o.document.project().scene.meshes.empty());
         EXPECT_TRUE(o.files.scene_file().empty());
         ASSERT_TRUE(o.files.running());
-        EXPECT_NE(o.files.running()->what.find("without"), std::string::npos);
+        EXPECT_NE(o.files.running()->what.find("shown meanwhile"), std::string::npos);
+        EXPECT_EQ(o.files.preview_note(), "Textures are loading: plain colours are shown instead");
         const auto meshes = early.meshes;
         EXPECT_TRUE(o.finish().opened);
         EXPECT_FALSE(o.files.preview());

@@ -35,8 +35,8 @@ void write_texture(const std::filesystem::path& file, int index) {
     if (const auto ok = write_display_image(file, texture_side, texture_side, rgb); !ok) throw std::runtime_error(ok.error().text());
 }
 
-// One square per texture. `format`: file extension of the images.
-void write_scene(const std::filesystem::path& file, const char* format) {
+// One square per texture. `formats`: file extensions of the images, in turn.
+void write_scene(const std::filesystem::path& file, const std::vector<std::string>& formats) {
     const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* texture coordinates */ 0, 1, 1, 1, 0, 0, 1, 0};
     const auto* bytes = reinterpret_cast<const uint8_t*>(square.data());
     if (const auto ok = write_file(file.parent_path() / "square.bin", {bytes, square.size() * sizeof(float)}); !ok)
@@ -48,7 +48,7 @@ void write_scene(const std::filesystem::path& file, const char* format) {
                {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}},
                 {{"bufferView", 1}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}}}}};
     for (int i = 0; i < texture_count; ++i) {
-        const std::string name = fmt::format("{}.{}", i, format);
+        const std::string name = fmt::format("{}.{}", i, formats[size_t(i) % formats.size()]);
         write_texture(file.parent_path() / name, i);
         gltf["images"].push_back({{"uri", name}});
         gltf["textures"].push_back({{"source", i}});
@@ -62,12 +62,29 @@ void write_scene(const std::filesystem::path& file, const char* format) {
         throw std::runtime_error(ok.error().text());
 }
 
-Json measure_loading(const char* format, const Options& options) {
+// What the window shows while it loads the file: seconds until the preview scene, and until all textures are shown, most of them
+// smaller than they are.
+Json measure_previews(const std::filesystem::path& file) {
+    const Clock::time_point begin = Clock::now();
+    std::vector<double> shown, with_all;
+    ImportOptions options;
+    options.on_preview_scene = [&](const ImportedScene& preview) {
+        shown.push_back(seconds_since(begin));
+        if (preview.scene.textures.size() == size_t(texture_count)) with_all.push_back(shown.back());
+    };
+    if (const auto imported = import_gltf(file, options); !imported) throw std::runtime_error(imported.error().text());
+    return {{"first_s", shown.empty() ? Json() : Json(rounded(shown[0]))},
+            {"all_textures_s", with_all.empty() ? Json() : Json(rounded(with_all[0]))},
+            {"count", shown.size()},
+            {"import_s", rounded(seconds_since(begin))}};
+}
+
+Json measure_loading(const std::vector<std::string>& formats, const Options& options) {
     const test::TemporaryFolder folder;
     const std::filesystem::path file = folder / "scene.gltf";
-    write_scene(file, format);
+    write_scene(file, formats);
     std::vector<double> import_seconds, import_core_seconds, compile_seconds;
-    double peak_mb = 0, decoded_mb = 0, compiled_mb = 0;
+    double peak_mb = 0, decoded_mb = 0, compiled_mb = 0; // compiled: besides the decoded images
     for (int round = 0; round < std::min(options.rounds, 3); ++round) {
         const MemoryGrowth memory;
         std::optional<Result<ImportedScene>> imported;
@@ -82,8 +99,9 @@ Json measure_loading(const char* format, const Options& options) {
         decoded_mb = 0;
         for (const auto& [id, texture] : (*imported)->scene.textures) decoded_mb += double(texture.image->bytes.size()) / 1e6;
     }
-    return {{"format", format},
+    return {{"formats", formats},
             {"textures", texture_count},
+            {"previews", measure_previews(file)},
             {"side", texture_side},
             {"whole_process", measure_process({file}, folder, options)},
             {"import_seconds", rounded(median(import_seconds))},
@@ -161,7 +179,7 @@ Json measure_filtering(const char* name, const Scene& scene, const Options& opti
 } // namespace
 
 Json run_textures(const Options& options) {
-    return {{"loading", {measure_loading("png", options), measure_loading("jpg", options)}},
+    return {{"loading", {measure_loading({"png"}, options), measure_loading({"jpg"}, options), measure_loading({"png", "jpg"}, options)}},
             {"environment", measure_environment(options)},
             {"filtering",
              {measure_filtering("near: texels are magnified", textured_room(1), options),

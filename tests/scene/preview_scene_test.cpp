@@ -9,8 +9,16 @@
 namespace blush::TEST_FILE {
 namespace {
 
+// No texture has its image.
 Scene with_material(const Material& material) {
     test::Sample sample = test::sample_project();
+    Scene& scene = sample.project.scene;
+    const Table<Texture> textures = scene.textures;
+    for (const auto& [id, texture] : textures) {
+        Texture missing = texture;
+        missing.image = nullptr;
+        scene.textures.set(id, missing);
+    }
     sample.project.scene.materials.set(sample.red, material);
     return sample.project.scene;
 }
@@ -42,6 +50,25 @@ TEST(PreviewScene, TexturedColoursAreDimmedAndTexturedMetalIsNone) {
     EXPECT_NEAR(shown.emissive.x, 0.428f, 1e-3f);
     EXPECT_EQ(shown.metallic, 0);
     EXPECT_EQ(shown.roughness, material.roughness);
+}
+
+TEST(PreviewScene, TexturesWithAnImageStay) {
+    test::Sample sample = test::sample_project();
+    Scene& scene = sample.project.scene;
+    Material material;
+    material.base_color = {1, 0.5f, 0};
+    material.base_color_texture.texture = material.normal_texture.texture = sample.checker;
+    material.metallic_roughness_texture.texture = scene.textures.add({.name = "later", .source = "", .image = {}});
+    scene.materials.set(sample.red, material);
+    const Scene shown = preview_scene(scene);
+    const Material& m = *shown.materials.find(sample.red);
+    EXPECT_EQ(m.base_color, material.base_color);
+    EXPECT_EQ(m.base_color_texture, material.base_color_texture);
+    EXPECT_EQ(m.normal_texture, material.normal_texture);
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.metallic_roughness_texture, TextureRef{});
+    EXPECT_EQ(shown.textures.size(), 1u);
+    EXPECT_TRUE(validate(shown));
 }
 
 TEST(PreviewScene, UntexturedMaterialsAreUnchanged) {

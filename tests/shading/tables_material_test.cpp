@@ -455,8 +455,16 @@ TEST(MaterialTable, UpdatingOneMaterialEqualsARebuild) {
         ASSERT_EQ(table.records, fresh.records);
         ASSERT_EQ(table.layers, fresh.layers);
         ASSERT_EQ(table.textures.sources, fresh.textures.sources);
-        ASSERT_EQ(table.textures.rgba8, fresh.textures.rgba8);
-        ASSERT_EQ(table.textures.rgba16f, fresh.textures.rgba16f);
+        ASSERT_EQ(table.textures.images.size(), fresh.textures.images.size());
+        for (size_t i = 0; i < fresh.textures.images.size(); ++i) {
+            const ImageTexels &kept = *table.textures.images[i], &made = *fresh.textures.images[i];
+            ASSERT_EQ(kept.image, made.image);
+            ASSERT_EQ(kept.is_color, made.is_color);
+            ASSERT_EQ(kept.bytes, made.bytes);
+            ASSERT_EQ(kept.floats, made.floats);
+            ASSERT_EQ(kept.mip_halves, made.mip_halves);
+            ASSERT_EQ(kept.mip_floats, made.mip_floats);
+        }
         ASSERT_EQ(std::memcmp(table.uses.data(), fresh.uses.data(), fresh.uses.size() * sizeof(TextureUse)), 0);
     }
     EXPECT_GT(rewritten, 0);

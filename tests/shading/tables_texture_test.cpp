@@ -295,8 +295,47 @@ TEST(TextureTable, StoresAnImageOnceHoweverItIsRead) {
     MaterialTable table;
     build_material_table(table, scene);
     EXPECT_EQ(table.textures.records.size(), 3u); // repeated as colour and as data, clamped as data
-    EXPECT_EQ(table.textures.rgba8.size(), 16u);
+    for (const TextureRecord& record : table.textures.records)
+        EXPECT_EQ(table.textures.levels[size_t(record.first_level)].texels, image->bytes.data()); // read where the scene holds it
+    EXPECT_EQ(table.textures.memory_bytes(), 2u * (2 * 2 + 1) * 3 * sizeof(uint16_t));            // mip levels as colour and as data
+    EXPECT_EQ(int64_t(table.textures.memory_bytes()), 2 * texel_bytes(*image));
     EXPECT_TRUE(table.textures.warnings.empty());
+}
+
+TEST(TextureTable, FloatDataAreReadWhereTheyLie) {
+    float next = 0;
+    Texture texture{.name = "", .source = "", .image = make_float_image(4, 2, 4, [&] { return next += 0.01f; })};
+    const Textured textured(texture, {});
+    const TextureTable& table = textured.table.textures;
+    const auto texels = [&](bool is_color) {
+        return table.levels[size_t(table.records[size_t(table.index_of(textured.texture, is_color))].first_level)].texels;
+    };
+    EXPECT_EQ(texels(false), texture.image->floats.data());
+    EXPECT_NE(texels(true), texture.image->floats.data()); // sRGB is decoded
+}
+
+TEST(TextureTable, TexelsOfImagesThatStayAreTakenOver) {
+    Scene scene;
+    const auto add = [&](uint8_t value) {
+        const ImagePtr image = make_byte_image(8, 8, 3, [&] { return value; });
+        Material material;
+        material.base_color_texture.texture = scene.textures.add({.name = "", .source = "", .image = image});
+        return add_worn_material(scene, material);
+    };
+    const Id<Material> gone = add(1);
+    add(2);
+    MaterialTable table;
+    build_material_table(table, scene);
+    ASSERT_EQ(table.textures.images.size(), 2u);
+    const std::weak_ptr<const ImageTexels> dropped = table.textures.images[0];
+    const ImageTexelsPtr kept = table.textures.images[1];
+    Material plain;
+    scene.materials.set(gone, plain);
+    add(3);
+    build_material_table(table, scene);
+    ASSERT_EQ(table.textures.images.size(), 2u);
+    EXPECT_EQ(table.textures.images[0], kept);
+    EXPECT_TRUE(dropped.expired());
 }
 
 TEST(TextureTable, SkipsUnusedTextures) {

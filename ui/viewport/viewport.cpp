@@ -64,12 +64,12 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
-// A caption at the lower edge of the picture.
-void write_caption(const ImageRect& image, const std::string& text) {
-    const float em = ImGui::GetFontSize(), room = image.width - 2 * em;
+// A caption at the lower or upper edge of the picture.
+void write_caption(const ImageRect& image, const std::string& text, bool above = false) {
+    const float em = ImGui::GetFontSize(), room = image.width - 2 * em, margin = em * 0.7f;
     const ImVec2 size = label_size(text, room);
-    draw_label(*ImGui::GetWindowDrawList(), text, {image.x + (image.width - size.x) / 2, image.y + image.height - size.y - em * 0.7f}, room,
-               tone::warning);
+    const float y = above ? image.y + margin : image.y + image.height - size.y - margin;
+    draw_label(*ImGui::GetWindowDrawList(), text, {image.x + (image.width - size.x) / 2, y}, room, tone::warning);
 }
 
 // Mask over node ids: the node and all its descendants.
@@ -422,7 +422,7 @@ ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const c
     }
     region_backdrop_.forget(); // they belong to the previous scene
     draw_picture(c, image, false, {});
-    write_caption(visible_part(image), caption);
+    write_caption(visible_part(image), caption, true); // below is the progress of the job
     return image;
 }
 

@@ -62,6 +62,7 @@ void RenderScene::update_groups(const LightGroups* groups) {
 }
 
 void RenderScene::aim(std::span<const Vec3> gains) {
+    if (gains.empty()) return; // without lights the table still has a record, of no group
     std::vector<double> factors;
     for (const int32_t group : group_of_light_) factors.push_back(double(luminance(gains[size_t(group)])));
     set_light_weights(lights_, factors);

@@ -181,10 +181,7 @@ MaterialTables MaterialTable::tables() const {
 void build_material_table(MaterialTable& table, const Scene& scene, const Workers* workers) {
     const std::vector<const Material*> used = used_materials(scene);
     std::vector<TextureSource> sources = texture_sources(scene, used);
-    if (sources != table.textures.sources) {
-        table.textures = {}; // frees the old texels before allocating new ones
-        table.textures = build_texture_table(std::move(sources), workers);
-    }
+    if (sources != table.textures.sources) table.textures = build_texture_table(std::move(sources), std::move(table.textures), workers);
     choose_uv_sets(table, used);
     const size_t count = scene.materials.size() + 1;
     table.ids.clear();

@@ -1,7 +1,8 @@
-// The textures that a scene's materials use, as texels in two pools: bytes and floats.
+// The textures that a scene's materials use.
 #pragma once
 
 #include "core/result.h"
+#include "render/materials/image_texels.h"
 #include "scene/scene.h"
 #include "shading/texture.h"
 
@@ -25,20 +26,11 @@ struct TextureSource {
     bool operator==(const TextureSource&) const = default;
 };
 
-// Leaves new elements unset, for arrays that several threads fill.
-template <class T> struct UnsetAllocator : std::allocator<T> {
-    template <class U> struct rebind { using other = UnsetAllocator<U>; };
-    template <class U, class... Args> void construct(U* p, Args&&... args) {
-        if constexpr (sizeof...(Args) > 0) std::construct_at(p, std::forward<Args>(args)...);
-    }
-};
-
 struct TextureTable {
     std::vector<TextureSource> sources; // one per record
     std::vector<TextureRecord> records;
     std::vector<TextureLevel> levels;
-    std::vector<uint32_t, UnsetAllocator<uint32_t>> rgba8, rgba16f;
-    std::vector<float, UnsetAllocator<float>> rgba32f;
+    std::vector<ImageTexelsPtr> images; // hold the texels of the levels
     std::vector<Diagnostic> warnings;
     double seconds = 0; // build time
 
@@ -48,17 +40,13 @@ struct TextureTable {
     float texels_per_unit(int32_t texture) const;
     // Without texture uses. Valid until the table changes.
     TextureTables tables() const;
+    // Without the images themselves, which belong to the scene.
     size_t memory_bytes() const;
 };
 
-// Memory of an image's texels in the pools, including mip levels.
-int64_t texel_bytes(const Image& image);
-
-// Sources are sorted by (id, is_color) and unique. An image with several users is stored once. Grey images become RGB, missing
-// alpha is 1. Float images used as colour count as sRGB-encoded if they stay within [0, 1], as in 16-bit PNG; a value above 1
-// marks linear data. With a warning: negative or non-finite texels become 0, and images with inconsistent data or beyond the pool
-// limits become a white texel. Mip levels are averaged in linear colour, and stored in half precision for 8-bit images.
-// `workers`: share the work; null: single-threaded.
-TextureTable build_texture_table(std::vector<TextureSource> sources, const Workers* workers = nullptr);
+// Sources are sorted by (id, is_color) and unique. An image with several users is stored once, and once more if it is both colour
+// and data: then only its mip levels are. With a warning: invalid values (image_texels.h), and white for images with inconsistent
+// data. Texels that `before` holds are taken over. `workers`: share the work; null: single-threaded.
+TextureTable build_texture_table(std::vector<TextureSource> sources, TextureTable&& before = {}, const Workers* workers = nullptr);
 
 } // namespace blush

@@ -1,5 +1,7 @@
 // Parallel import: the result does not depend on the threads; preview scene before the textures are decoded.
+#include "io/gltf/read/images/image_decoding.h"
 #include "io/image/image_io.h"
+#include "io/image/jpeg_encoding.h"
 #include "io/project/scene_hash.h"
 #include "scene/document/preview_scene.h"
 #include "scene/validate.h"
@@ -221,16 +223,67 @@ TEST(GltfParallel, PreviewSceneComesBeforeTheTextures) {
     options.on_preview_scene = [&](const ImportedScene& scene) { early.push_back(scene); };
     const auto whole = import_built(b, options);
     ASSERT_TRUE(whole) << error_text(whole);
-    ASSERT_EQ(early.size(), 1u);
+    ASSERT_FALSE(early.empty());
     const Scene& scene = early[0].scene;
     EXPECT_TRUE(validate(scene));
+    EXPECT_TRUE(scene.textures.empty());
     EXPECT_TRUE(scene.meshes.shares_storage(whole->scene.meshes)); // meshes are converted only once
     EXPECT_EQ(scene.nodes, whole->scene.nodes);
     EXPECT_EQ(scene.lights, whole->scene.lights);
     EXPECT_EQ(scene.cameras, whole->scene.cameras);
     EXPECT_EQ(scene.view, whole->scene.view);
     EXPECT_EQ(early[0].has_view, whole->has_view);
-    EXPECT_EQ(scene, preview_scene(whole->scene));
+    Scene without_images = whole->scene;
+    for (const auto& [id, texture] : whole->scene.textures) {
+        Texture missing = texture;
+        missing.image = nullptr;
+        without_images.textures.set(id, missing);
+    }
+    EXPECT_EQ(scene, preview_scene(without_images));
+}
+
+TEST(GltfParallel, JpegsAreFirstShownAtAnEighth) {
+    constexpr int side = 1024;
+    std::vector<uint8_t> rgb;
+    for (int i = 0; i < side * side; ++i) rgb.insert(rgb.end(), {uint8_t(i % side / 4), uint8_t(i / side / 4), 200});
+    const auto jpeg = encode_jpeg("ramp", side, side, rgb);
+    ASSERT_TRUE(jpeg);
+    const auto full = read_image(*jpeg, "ramp");
+    ASSERT_TRUE(full);
+    GltfBuilder b = busy_file();
+    const std::string bytes(jpeg->begin(), jpeg->end());
+    const int image = b.add("images", {{"bufferView", b.buffer_view(bytes)}, {"mimeType", "image/jpeg"}});
+    b.json["textures"][0]["source"] = image;
+    for (const unsigned threads : {1u, 2u}) {
+        std::vector<ImportedScene> early;
+        ImportOptions options;
+        options.threads = threads;
+        options.on_preview_scene = [&](const ImportedScene& scene) { early.push_back(scene); };
+        const auto whole = import_built(b, options);
+        ASSERT_TRUE(whole) << error_text(whole);
+        EXPECT_EQ(whole->scene.textures.entries()[0].value.image->bytes, (*full)->bytes);
+        if (threads > 1) continue; // the other thread may have decoded everything by then
+        ASSERT_GE(early.size(), 2u);
+        const Scene& shown = early[1].scene;
+        EXPECT_TRUE(validate(shown));
+        ASSERT_EQ(shown.textures.size(), 1u); // the others are not decoded yet
+        const Image& small = *shown.textures.begin()->value.image;
+        ASSERT_EQ(small.width, side / 8);
+        ASSERT_EQ(small.height, side / 8);
+        ASSERT_EQ(small.channels, 3);
+        for (int y = 0; y < small.height; ++y)
+            for (int x = 0; x < small.width; ++x) {
+                const size_t pixel = (size_t(y) * size_t(small.width) + size_t(x)) * 3;
+                ASSERT_NEAR(small.bytes[pixel], 2 * x + 0.5, 3);
+                ASSERT_NEAR(small.bytes[pixel + 1], 2 * y + 0.5, 3);
+            }
+    }
+}
+
+TEST(GltfParallel, ImagesThatAreDecodedTogetherHaveALimitedSize) {
+    EXPECT_EQ(decoding_room(uint64_t(4) << 30), int64_t(512) << 20);
+    EXPECT_EQ(decoding_room(0), int64_t(64) << 20);
+    EXPECT_EQ(decoding_room(uint64_t(1) << 50), int64_t(1) << 30);
 }
 
 TEST(GltfParallel, NoPreviewWithoutTextures) {

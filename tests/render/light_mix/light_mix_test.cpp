@@ -53,6 +53,14 @@ TEST(LightMix, OfEqualGainsMatchesAFreshRender) {
     EXPECT_NEAR(mixed.error.relmse, fresh.error.relmse, 1e-4 * fresh.error.relmse);
 }
 
+TEST(LightMix, OfASceneWithoutLightsIsBlack) {
+    Scene scene;
+    scene.mix.grouping = Grouping::by_object;
+    const Frame frame = render_frame(scene, settings_for(8, 8, 1));
+    EXPECT_TRUE(frame.gains.empty());
+    EXPECT_EQ(std::ranges::count_if(frame.rgba, [](float v) { return !(v == 0 || v == 1); }), 0);
+}
+
 struct MixEdit {
     const char* name;
     void (*edit)(Studio&);

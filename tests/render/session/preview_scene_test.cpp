@@ -23,8 +23,14 @@ RenderSettings small() {
 TEST(PreviewScene, IsReplacedByTheTexturedScene) {
     const test::Sample sample = test::sample_project();
     const Scene& whole = sample.project.scene;
+    Scene without_images = whole;
+    for (const auto& [id, texture] : whole.textures) {
+        Texture missing = texture;
+        missing.image = nullptr;
+        without_images.textures.set(id, missing);
+    }
     Renderer renderer(test::all_planes());
-    renderer.update(preview_scene(whole), small());
+    renderer.update(preview_scene(without_images), small());
     renderer.render(0, 4);
     const Frame early = renderer.resolve();
     double light = 0;

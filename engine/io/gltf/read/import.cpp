@@ -115,6 +115,18 @@ Result<void> convert(const GltfContext& context, const std::vector<int>& nodes, 
     return {};
 }
 
+// The scene with those textures that are there.
+ImportedScene preview_of(const ImportedScene& converted, const TextureImport& textures) {
+    ImportedScene shown = converted;
+    for (const auto& [id, index] : converted.origin.indices.textures) {
+        Texture texture = *shown.scene.textures.find(id);
+        texture.image = textures.available(index);
+        shown.scene.textures.set(id, texture);
+    }
+    shown.scene = preview_scene(shown.scene);
+    return shown;
+}
+
 // Completes a scene that was converted without pixels.
 Result<void> take_pixels(const GltfContext& context, const TextureImport& textures, ImportedScene& imported) {
     Scene& scene = imported.scene;
@@ -141,12 +153,12 @@ Result<void> convert_gltf(const GltfContext& context, ImportedScene& imported) {
 
     ImportedScene scene;
     Result<void> converted = convert(context.reporting_to(scene.report), *nodes, *textures, scene);
+    std::function<void()> show;
     if (converted && context.options.on_preview_scene && !textures->is_done()) {
-        ImportedScene shown = scene;
-        shown.scene = preview_scene(shown.scene);
-        context.options.on_preview_scene(shown);
+        show = [&] { context.options.on_preview_scene(preview_of(scene, *textures)); };
+        show();
     }
-    if (const auto ok = textures->finish(context); !ok) return ok;
+    if (const auto ok = textures->finish(context, show); !ok) return ok;
     if (!textures->all_decoded_textures()) {    // meshes were converted for textures that cannot be decoded
         ImportOptions silent = context.options; // progress was reported already
         silent.on_progress = {};

@@ -16,8 +16,9 @@ struct ImportOptions {
     std::function<void(double fraction, const std::string& what)> on_progress; // called on the importing thread
     const std::atomic<bool>* cancel = nullptr;                                 // true ends the import with the error "cancelled"
     int64_t texture_bytes = int64_t(4) << 30; // limit of all decoded textures; the largest are halved until they fit
-    // Called once on the importing thread if textures take longer than the rest, with the preview scene (scene/document/preview_scene.h).
-    // Textures may still turn out to be unreadable, and the import may still be cancelled.
+    // Called on the importing thread if textures take longer than the rest, with the preview scene (scene/document/preview_scene.h):
+    // once without textures, then with more and more of them, some of them smaller than they are, with pauses. Textures may still
+    // turn out to be unreadable, and the import may still be cancelled. Does not affect the result.
     std::function<void(const ImportedScene&)> on_preview_scene = {};
 };
 

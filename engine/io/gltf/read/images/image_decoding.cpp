@@ -1,12 +1,14 @@
 #include "io/gltf/read/images/image_decoding.h"
 
 #include "core/box_filter.h"
+#include "core/memory_limit.h"
 #include "core/task_queue.h"
 #include "io/gltf/read/extras.h"
 #include "io/gltf/read/images/images.h"
 #include "io/gltf/read/uri.h"
 #include "io/image/image_channels.h"
 #include "io/image/image_io.h"
+#include "io/image/jpeg_preview.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <mutex>
 #include <optional>
 #include <queue>
 #include <set>
@@ -150,7 +154,10 @@ void read_infos(const GltfContext& context, std::vector<Encoded>& files) {
 
 } // namespace
 
+int64_t decoding_room(uint64_t memory_left) { return int64_t(std::clamp(memory_left / 8, uint64_t(64) << 20, uint64_t(1) << 30)); }
+
 struct ImageDecoding::State {
+    using Clock = std::chrono::steady_clock;
     const GltfContext& context;
     const std::thread::id reporter = std::this_thread::get_id();
     std::vector<Encoded> files;
@@ -158,21 +165,70 @@ struct ImageDecoding::State {
     std::vector<bool> expected;
     std::atomic<size_t> done = 0;
     std::atomic<bool> waited_for = false, given_up = false;
+
+    std::vector<size_t> file_of;  // by image; files.size(): none
+    std::vector<size_t> previews; // files to be decoded at an eighth of their size first
+    std::atomic<size_t> next_preview = 0;
+    mutable std::mutex mutex;        // of what follows, while images are decoded
+    std::vector<ImagePtr> available; // by file
+    std::function<void()> on_more;
+    Clock::duration pause = std::chrono::milliseconds(500); // doubles: each picture with more textures costs time
+    Clock::time_point next_shown = Clock::now() + pause;
+
     TaskQueue helpers; // declared last, so that the threads end before the data they use
 
     explicit State(const GltfContext& c)
         : context(c), images(c.model().images.size()), expected(images.size()), helpers(c.options.threads) {}
     ~State() { given_up = true; }
 
-    void decode_one(Encoded& file) {
-        if (given_up || context.cancelled()) return;
+    void find_previews() {
+        constexpr int64_t worth_it = int64_t(1) << 20; // bytes
+        available.resize(files.size());
+        file_of.assign(images.size(), files.size());
+        for (size_t f = 0; f < files.size(); ++f) {
+            for (const size_t i : files[f].images) file_of[i] = f;
+            if (!files[f].decoded && files[f].info.format == "jpeg" && files[f].info.bytes() > worth_it) previews.push_back(f);
+        }
+        if (!context.options.on_preview_scene) previews.clear();
+    }
+
+    bool is_over() const { return given_up || context.cancelled(); }
+    void decode_one(size_t index) {
+        if (decode_previews() && is_reporting()) show();
+        if (is_over()) return;
+        Encoded& file = files[index];
         if (!file.decoded) decode(context, file);
+        if (*file.decoded) make_available(index, **file.decoded);
         ++done;
-        if (waited_for && std::this_thread::get_id() == reporter) report();
+        if (!is_reporting()) return;
+        report();
+        if (done < files.size() && Clock::now() >= next_shown) show();
+    }
+    bool is_reporting() const { return waited_for && std::this_thread::get_id() == reporter; }
+    // Previews of all images come before the first image, whichever thread begins. True if this thread has made some.
+    bool decode_previews() {
+        bool made = false;
+        for (size_t i = next_preview++; i < previews.size() && !is_over(); i = next_preview++) {
+            const Encoded& file = files[previews[i]];
+            if (const auto preview = read_jpeg_preview(file.bytes, image_name(context, file.images[0])))
+                make_available(previews[i], with_color_channels(*preview));
+            made = true;
+        }
+        return made;
+    }
+    void make_available(size_t file, ImagePtr image) {
+        if (!context.options.on_preview_scene) return;
+        const std::lock_guard lock(mutex);
+        available[file] = std::move(image);
     }
     void report() const {
         if (files.empty()) return;
         context.progress(0.6 + 0.4 * double(done) / double(files.size()), fmt::format("textures, {} of {}", done.load(), files.size()));
+    }
+    void show() {
+        if (on_more) on_more();
+        pause *= 2;
+        next_shown = Clock::now() + pause;
     }
 };
 
@@ -181,7 +237,6 @@ ImageDecoding::ImageDecoding(ImageDecoding&&) noexcept = default;
 ImageDecoding::~ImageDecoding() = default;
 
 Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span<const int> wanted) {
-    constexpr int64_t large = int64_t(1) << 28; // bytes: decoders may need as much memory again
     auto state = std::make_unique<State>(context);
     Result<std::vector<Encoded>> files = encoded_images(context, wanted);
     if (!files) return files.error();
@@ -189,12 +244,15 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
     read_infos(context, state->files);
     report_wrong_formats(context, state->files);
     fit_into_memory(context, state->files);
+    state->find_previews();
     std::vector<int64_t> sizes;
     for (const Encoded& file : state->files) {
         sizes.push_back(file.info.bytes());
         for (const size_t i : file.images) state->expected[i] = !file.decoded;
     }
-    state->helpers.begin(sizes, large, [s = state.get()](size_t i) { s->decode_one(s->files[i]); });
+    // All but one thread take images below their share of the room, one takes larger ones, one by one.
+    const unsigned threads = context.options.threads ? context.options.threads : std::max(1u, std::thread::hardware_concurrency());
+    state->helpers.begin(sizes, decoding_room(memory_limit().left) / threads, [s = state.get()](size_t i) { s->decode_one(i); });
     return ImageDecoding(std::move(state));
 }
 
@@ -212,11 +270,20 @@ bool ImageDecoding::all_decoded() const {
     return true;
 }
 
-Result<void> ImageDecoding::finish() {
+ImagePtr ImageDecoding::available(int index) const {
+    if (!is_expected(index)) return nullptr;
+    const std::lock_guard lock(state_->mutex);
+    return state_->available[state_->file_of[size_t(index)]];
+}
+
+Result<void> ImageDecoding::finish(const std::function<void()>& on_more) {
     State& s = *state_;
+    s.on_more = on_more;
     s.waited_for = true;
     s.report();
     s.helpers.finish();
+    s.on_more = {};
+    s.available.clear();
     if (s.context.cancelled()) return s.context.cancel_error();
     for (Encoded& file : s.files)
         for (const size_t i : file.images) {

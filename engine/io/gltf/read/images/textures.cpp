@@ -142,9 +142,9 @@ std::vector<Id<Texture>> TextureImport::add_to(Scene& scene) const {
 
 bool TextureImport::is_done() const { return !decoding_ || decoding_->is_done(); }
 
-Result<void> TextureImport::finish(const GltfContext& context) {
+Result<void> TextureImport::finish(const GltfContext& context, const std::function<void()>& on_more) {
     if (decoding_)
-        if (const auto ok = decoding_->finish(); !ok) return ok;
+        if (const auto ok = decoding_->finish(on_more); !ok) return ok;
     context.add_all(report_.diagnostics);
     finished_ = true;
     std::set<int> samplers;

@@ -19,8 +19,11 @@ public:
     // decoded. Before finish() they have no pixels, and images with a valid header count as decodable.
     std::vector<Id<Texture>> add_to(Scene& scene) const;
     bool is_done() const;
-    // Waits for the images. A missing image or one that cannot be decoded is a warning. Errors: cancelled.
-    Result<void> finish(const GltfContext& context);
+    // Waits for the images. Calls on_more() on this thread when available() has more images, with pauses. A missing image or one
+    // that cannot be decoded is a warning. Errors: cancelled.
+    Result<void> finish(const GltfContext& context, const std::function<void()>& on_more = {});
+    // Before finish(): the image of a texture as far as it is known, at its size or smaller, or null.
+    ImagePtr available(int texture) const { return decoding_ ? decoding_->available(images_[size_t(texture)]) : nullptr; }
     // After finish(): true if all images with a valid header could be decoded.
     bool all_decoded_textures() const { return !decoding_ || decoding_->all_decoded(); }
 
