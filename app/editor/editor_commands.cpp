@@ -54,7 +54,7 @@ template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::
     return c.apply(edits, name);
 }
 
-// The surface under the mouse, if it is over an object in the picture; else the subject's centre.
+// The surface under the mouse, if it is over an object in the image; else the subject's centre.
 LightSpot spot_for_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
@@ -173,7 +173,7 @@ void reset_white(PanelContext& c) {
 void compare(PanelContext& c, Comparison::Mode mode) {
     if (!c.ui.snapshots.toggle(mode))
         c.ui.toasts.note("There is no snapshot to compare",
-                         keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current picture.");
+                         keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current image.");
 }
 
 void toggle_denoise(PanelContext& c) {

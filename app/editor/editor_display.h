@@ -33,7 +33,7 @@ private:
     FramePtr metered_;
     AutoExposure metered_by_ = AutoExposure::off;
     float metered_ev_ = 0;
-    FeatureUse view_transform_{"display", "view transform", false, "no picture yet"};
+    FeatureUse view_transform_{"display", "view transform", false, "no image yet"};
     FeatureReport feature_report_;
     std::array<bool, denoise_qualities> denoised_with_{};
 };

@@ -37,7 +37,7 @@ void EditorMessages::update(const Frame& frame, const Scene& scene, Toasts& toas
     const bool sees_one = frame.depth.empty() || std::ranges::any_of(frame.depth, [](float depth) { return depth > 0; });
     if (!sees_one && !scene.meshes.empty())
         toasts.add(
-            {Toast::Kind::warning, "The camera sees no object of the scene", "The picture shows only the background.", Command::frame_all});
+            {Toast::Kind::warning, "The camera sees no object of the scene", "The image shows only the background.", Command::frame_all});
 }
 
 void EditorMessages::update(const SessionStatus& status, UiState& ui) {

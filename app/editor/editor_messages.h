@@ -14,11 +14,11 @@ namespace blush {
 
 class EditorMessages {
 public:
-    // A file was opened: the next pictures also tell whether the camera sees any object.
+    // A file was opened: the next images also tell whether the camera sees any object.
     void opened() { looks_for_objects_ = true; }
     // For each frame of the current document.
     void update(const Frame& frame, const Scene& scene, Toasts& toasts);
-    // Shows the raw picture if it cannot be denoised.
+    // Shows the raw image if it cannot be denoised.
     void update(const SessionStatus& status, UiState& ui);
 
 private:

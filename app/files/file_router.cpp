@@ -61,7 +61,7 @@ void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
         files.load_ies(file, document, ui);
     else
         ui.toasts.fail(file.filename().string() +
-                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
+                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor an image "
                        "(.exr), nor an IES file (.ies), nor a convergence table (.csv)");
 }
 

@@ -31,7 +31,7 @@ void SnapshotStore::poll(UiState& ui) {
         return ui.toasts.warn(s.name + " cannot be read and is rendered from the start", result->error().text());
     }
     Snapshot& read = (**result).snapshot;
-    s.pictures = std::move(read.pictures);
+    s.images = std::move(read.images);
     s.error = std::move(read.error);
     s.film = std::move(read.film);
     s.place = Snapshot::Place::memory;

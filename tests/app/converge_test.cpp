@@ -121,7 +121,7 @@ TEST_F(Converge, RebuildsABrokenCache) {
     const std::vector<std::string> options{"--size", "24x24", "--spp", "4", "--repeats", "1"};
     ASSERT_EQ(run_converge(options).exit_code, 0);
     for (const auto& file : std::filesystem::directory_iterator(folder / "cache/blush/references"))
-        ASSERT_TRUE(write_file(file.path(), std::string_view("not a picture")));
+        ASSERT_TRUE(write_file(file.path(), std::string_view("not an image")));
     ASSERT_EQ(run_converge(options).exit_code, 0);
     EXPECT_EQ(json()["reference"]["source"], "rendered");
 }

@@ -131,7 +131,7 @@ TEST(DenoiseCommand, DisplayImagesAreDenoisedLinearlyAndKeepBrightness) {
     EXPECT_FLOAT_EQ(read_layers(folder / "out.exr")->find("G")->values[0], linear_from_srgb(128.0f / 255)) << "an EXR is scene-linear";
 }
 
-TEST(DenoiseCommand, SceneLinearImagesGoThroughTheViewIntoPictures) {
+TEST(DenoiseCommand, SceneLinearImagesGoThroughTheViewIntoImages) {
     const TemporaryFolder folder;
     write(folder / "in.exr", noisy_image(true));
     ASSERT_EQ(test::blush({"denoise", folder / "in.exr", "-o", folder / "a.png"}).exit_code, 0);
@@ -235,7 +235,7 @@ TEST(RenderDenoised, GroupsAreDenoisedBeforeTheyAreMixed) {
     for (size_t i = 0; i < all.size(); ++i) ASSERT_NEAR(all[i], first[i] + others[i], 1e-5f * (1 + all[i]));
 }
 
-TEST(RenderDenoised, PicturesShowItAndCompareSeesTheLayer) {
+TEST(RenderDenoised, ImagesShowItAndCompareSeesTheLayer) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& output, const char* denoise, const char* spp) {
         return test::blush({"render", scene_file("cornell"), "-o", folder / output, "--size", "64x48", "--spp", spp, "--denoise", denoise})

@@ -1,4 +1,4 @@
-// EditorConvergence with synthetic frames: recorded pictures, runs, denoised pictures, references and files.
+// EditorConvergence with synthetic frames: recorded images, runs, denoised images, references and files.
 #include "app/editor/editor_convergence.h"
 #include "app/editor/run_name.h"
 #include "core/files.h"
@@ -17,7 +17,7 @@ using Kind = ConvergencePoint::Kind;
 
 constexpr int width = 40, height = 30;
 
-// A picture of ones with a constant `error`, which is also its error estimate.
+// An image of ones with a constant `error`, which is also its error estimate.
 std::shared_ptr<Frame> frame_of(uint64_t revision, int64_t samples, double error) {
     auto f = std::make_shared<Frame>();
     f->revision = revision;
@@ -33,7 +33,7 @@ std::shared_ptr<Frame> frame_of(uint64_t revision, int64_t samples, double error
 }
 
 DenoisedPtr denoised_of(uint64_t revision, int64_t samples, float value) {
-    auto d = std::make_shared<DenoisedPicture>();
+    auto d = std::make_shared<DenoisedImage>();
     d->revision = revision;
     d->width = width;
     d->height = height;
@@ -73,10 +73,10 @@ protected:
     void converge(uint64_t revision, int64_t up_to) {
         for (int64_t n = 1; n <= up_to; n *= 2) editor.update(view, {frame_of(revision, n, 0.5 / std::sqrt(double(n))), nullptr});
     }
-    // Repeats with the same pictures until the condition is true.
-    template <class Done> bool look_until(const Pictures& pictures, Done done) {
+    // Repeats with the same images until the condition is true.
+    template <class Done> bool look_until(const Images& images, Done done) {
         for (int i = 0; i < 3000 && !done(); ++i) {
-            editor.update(view, pictures);
+            editor.update(view, images);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         return done();
@@ -100,11 +100,11 @@ protected:
     SubmissionPtr submitted;
 };
 
-TEST_F(Convergence, RecordsOnlyFullResolutionPicturesOfTheRun) {
+TEST_F(Convergence, RecordsOnlyFullResolutionImagesOfTheRun) {
     editor.update(view, {frame_of(1, 4, 1), nullptr});
     EXPECT_FALSE(view.runs.live());
     begin("Opened", 2);
-    editor.update(view, {frame_of(1, 512, 0.1), nullptr}); // the picture before it
+    editor.update(view, {frame_of(1, 512, 0.1), nullptr}); // the image before it
     auto coarse = frame_of(2, 1, 1);
     coarse->divider = 4;
     editor.update(view, {coarse, nullptr});
@@ -177,7 +177,7 @@ TEST_F(Convergence, NewMixOfTheSameSamplesAddsAMark) {
     EXPECT_EQ(view.runs.all().size(), 2u) << "other groups are another image";
 }
 
-TEST_F(Convergence, DenoisedPicturesAreMeasuredAgainstABetterRawOne) {
+TEST_F(Convergence, DenoisedImagesAreMeasuredAgainstABetterRawOne) {
     view.open = view.denoised = true;
     begin("Opened", 1);
     converge(1, 4);
@@ -186,7 +186,7 @@ TEST_F(Convergence, DenoisedPicturesAreMeasuredAgainstABetterRawOne) {
     EXPECT_EQ(view.waiting, 1u);
     const auto points = [&] { return view.runs.live()->record.points(Kind::denoised); };
     ASSERT_TRUE(look_until({frame_of(1, 16, 0.1), denoised}, [&] { return view.cost.measuring > 0; }));
-    EXPECT_TRUE(points().empty()) << "a raw picture that is not better is not used";
+    EXPECT_TRUE(points().empty()) << "a raw image that is not better is not used";
     ASSERT_TRUE(look_until({frame_of(1, 4096, 0.001), denoised}, [&] { return !points().empty(); }));
     EXPECT_EQ(points()[0].spp, 4);
     EXPECT_LE(points()[0].rmse.low, 0.1);
@@ -210,10 +210,10 @@ TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
     ASSERT_TRUE(look_until({frame, nullptr}, [&] { return !view.runs.live()->record.points(Kind::measured).empty(); }));
     EXPECT_EQ(view.runs.live()->record.points(Kind::measured)[0].spp, 32);
 
-    // The same picture again, after another one.
+    // The same image again, after another one.
     begin("edit", 2);
     editor.update(view, {frame_of(2, 1, 1), nullptr});
-    EXPECT_EQ(view.news.state, State::none) << "no search before the picture has settled";
+    EXPECT_EQ(view.news.state, State::none) << "no search before the image has settled";
     converge(2, 16);
     EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.news.state == State::there; }));
 }

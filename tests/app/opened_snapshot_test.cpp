@@ -16,7 +16,7 @@ namespace {
 using test::TemporaryFolder;
 
 // An image of the Cornell box with its film state, as the window stores it.
-LayeredImage picture(const TemporaryFolder& folder) {
+LayeredImage stored_image(const TemporaryFolder& folder) {
     const auto finished = test::blush({"render", test::scene_file("cornell"), "-o", folder / "p.exr", "--size", "16x12", "--spp", "4",
                                        "--quiet", "--layers", "albedo,normal,depth,id,film"});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
@@ -29,7 +29,7 @@ Scene cornell() { return import_gltf(test::scene_file("cornell"), {})->scene; }
 
 TEST(OpenedSnapshot, RestoresImageSamplesAndState) {
     const TemporaryFolder folder;
-    LayeredImage image = picture(folder);
+    LayeredImage image = stored_image(folder);
     const Scene imported = cornell();
     Scene edited = imported;
     edited.environment.intensity = 3;
@@ -47,9 +47,9 @@ TEST(OpenedSnapshot, RestoresImageSamplesAndState) {
     ASSERT_TRUE(s.film);
     EXPECT_EQ(s.film->samples, 4);
     for (size_t i = 0; i < 16 * 12; ++i) {
-        EXPECT_EQ(s.pictures.frame->rgba[4 * i], image.find("R")->values[i]);
-        EXPECT_EQ(s.pictures.frame->material_id[i], image.find("id.material")->words[i]);
-        EXPECT_EQ(s.pictures.frame->object_id[i], image.find("id.object")->words[i]);
+        EXPECT_EQ(s.images.frame->rgba[4 * i], image.find("R")->values[i]);
+        EXPECT_EQ(s.images.frame->material_id[i], image.find("id.material")->words[i]);
+        EXPECT_EQ(s.images.frame->object_id[i], image.find("id.object")->words[i]);
     }
     const auto state = state_of(opened->metadata, imported, s.scene_file);
     ASSERT_TRUE(state) << state.error().text();
@@ -60,13 +60,13 @@ TEST(OpenedSnapshot, RestoresImageSamplesAndState) {
 
 TEST(OpenedSnapshot, ReportsWhatCannotBeRestored) {
     const TemporaryFolder folder;
-    LayeredImage image = picture(folder);
+    LayeredImage image = stored_image(folder);
     image.metadata["blush:scene"] = "gone.gltf";
     ASSERT_TRUE(write_exr(folder / "s.exr", image));
     const auto opened = open_snapshot(folder / "s.exr", test::scene_file("cornell"));
     ASSERT_TRUE(opened);
     EXPECT_NE(opened->snapshot.no_state.find("gone.gltf"), std::string::npos);
-    EXPECT_TRUE(opened->snapshot.pictures.frame) << "the image is still available";
+    EXPECT_TRUE(opened->snapshot.images.frame) << "the image is still available";
 
     SnapshotMetadata m = opened->metadata;
     m.scene_hash = "0123456789abcdef";
@@ -79,9 +79,9 @@ TEST(OpenedSnapshot, ReportsWhatCannotBeRestored) {
 
 TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
     const TemporaryFolder folder;
-    const LayeredImage image = picture(folder);
+    const LayeredImage image = stored_image(folder);
     const std::string film = image.metadata.at("blush:film");
-    // Each leaves the picture readable; only what it damages is missing.
+    // Each leaves the image readable; only what it damages is missing.
     const std::pair<const char*, std::string> hostile[] = {
         {"blush:film", "{"},
         {"blush:film",
@@ -101,7 +101,7 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
         const auto opened = open_snapshot(folder / "h.exr", {});
         const std::string damaged = key, which = damaged + ": " + text.substr(0, 80);
         ASSERT_TRUE(opened) << which << ": " << opened.error().text();
-        EXPECT_TRUE(opened->snapshot.pictures.frame) << which;
+        EXPECT_TRUE(opened->snapshot.images.frame) << which;
         EXPECT_EQ(opened->snapshot.film != nullptr, damaged != "blush:film") << which;
         EXPECT_EQ(opened->snapshot.scene_file, "") << which;
         EXPECT_EQ(bool(state_of(opened->metadata, cornell(), test::scene_file("cornell"))), damaged != "blush:edits") << which;

@@ -136,7 +136,7 @@ TEST_F(PortalDialog, ReturnsTheChosenFile) {
     EXPECT_EQ(answer.outcome, Outcome::chosen);
     EXPECT_EQ(answer.path, "/scenes/red mug.glb");
     EXPECT_EQ(portal.method, "OpenFile");
-    EXPECT_EQ(portal.title, "Open a scene or a picture");
+    EXPECT_EQ(portal.title, "Open a scene or an image");
     const auto folder = portal.options.at("current_folder").get<std::vector<uint8_t>>();
     EXPECT_EQ(std::string(folder.begin(), folder.end()), std::string("/scenes\0", 8));
     using Filter = sdbus::Struct<std::string, std::vector<sdbus::Struct<uint32_t, std::string>>>;
@@ -149,8 +149,8 @@ TEST_F(PortalDialog, ReturnsTheChosenFile) {
 
 TEST_F(PortalDialog, RequestsFoldersAndNames) {
     Portal portal;
-    portal.uris = {"file:///pictures"};
-    EXPECT_EQ(ask_portal({FileRequest::Use::snapshot_folder, "/", ""}, cancel).path, "/pictures");
+    portal.uris = {"file:///images"};
+    EXPECT_EQ(ask_portal({FileRequest::Use::snapshot_folder, "/", ""}, cancel).path, "/images");
     EXPECT_TRUE(portal.options.at("directory").get<bool>());
     EXPECT_FALSE(portal.options.contains("filters"));
     EXPECT_EQ(ask_portal({FileRequest::Use::save_scene, "/", "mug.gltf"}, cancel).outcome, Outcome::chosen);

@@ -139,9 +139,9 @@ TEST(RenderOptions, AMissingSideFollowsTheAspect) {
         EXPECT_ANY_THROW(parsed({"--size", wrong})) << wrong;
 }
 
-TEST(RenderOptions, ARegionIsPixelsOfThePicture) {
+TEST(RenderOptions, ARegionIsPixelsOfTheImage) {
     const RenderSettings settings = *settings_of(parsed({"--size", "640x480", "--region", "160,120,320,60"}));
-    EXPECT_EQ(settings.region, (PictureRegion{0.25f, 0.25f, 0.5f, 0.125f}));
+    EXPECT_EQ(settings.region, (ImageRegion{0.25f, 0.25f, 0.5f, 0.125f}));
     EXPECT_EQ(pixels_of(settings.region, 640, 480), (PixelRect{160, 120, 480, 180}));
     EXPECT_FALSE(settings_of(parsed({"--size", "640x480", "--region", "600,0,41,10"})));
     EXPECT_FALSE(settings_of(parsed({"--region", "0,0,64,64", "--adaptive", "on"})));

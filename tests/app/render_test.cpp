@@ -148,7 +148,7 @@ TEST(Render, ClampingReportsLostEnergy) {
     for (const float value : beauty(*read_layers(folder / "out.exr"))) EXPECT_LE(value, 0.2f);
 }
 
-TEST(Render, WritesPicturesForDisplay) {
+TEST(Render, WritesImagesForDisplay) {
     const TemporaryFolder folder;
     for (const char* name : {"out.png", "out.jpg"}) {
         const Finished finished = test::blush(tiny("cornell", folder / name));
@@ -161,7 +161,7 @@ TEST(Render, WritesPicturesForDisplay) {
     }
 }
 
-TEST(Render, ExposureBrightensPicturesAndLeavesExrsAlone) {
+TEST(Render, ExposureBrightensImagesAndLeavesExrsAlone) {
     const TemporaryFolder folder;
     const auto sum = [&](const std::string& file) {
         int64_t total = 0;

@@ -145,7 +145,7 @@ TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
 }
 
-// One pixel in which a picture has nothing and the reference by chance a
+// One pixel in which an image has nothing and the reference by chance a
 // firefly, of which its own error knows nothing.
 TEST(BiasTest, OnePixelIsNotSignificant) {
     std::mt19937 bits(10);

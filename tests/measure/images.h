@@ -1,4 +1,4 @@
-// Pictures for tests of the metrics.
+// Images for tests of the metrics.
 #pragma once
 
 #include "measure/metrics/rgb_image.h"

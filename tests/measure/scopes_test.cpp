@@ -14,7 +14,7 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 constexpr ScopeAxis stops{true, -8, 8}, unit{false, 0, 1};
 
-std::vector<float> random_picture(int pixels) {
+std::vector<float> random_image(int pixels) {
     std::mt19937 rng(11);
     std::normal_distribution<float> exponent(-2, 4);
     std::vector<float> rgb;
@@ -23,7 +23,7 @@ std::vector<float> random_picture(int pixels) {
 }
 
 TEST(Histogram, CountsEveryPixelOnceInEveryChannel) {
-    std::vector<float> rgb = random_picture(1000);
+    std::vector<float> rgb = random_image(1000);
     rgb[0] = nan;
     rgb[4] = inf;
     rgb[8] = -inf;
@@ -52,7 +52,7 @@ TEST(Histogram, BinsAreWhereTheirValuesAre) {
 
 TEST(Waveform, IsAHistogramOfEachColumn) {
     constexpr int width = 30, height = 20;
-    std::vector<float> rgb = random_picture(width * height);
+    std::vector<float> rgb = random_image(width * height);
     for (float& x : rgb) x = std::min(std::abs(x), 1.f); // all within the axis
     const Waveform w = waveform(rgb, width, unit, 10, 16);
     const Histogram all = histogram(rgb, unit, 16);

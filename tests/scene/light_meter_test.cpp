@@ -1,6 +1,6 @@
 // Light meters stay on their surface, and regions are whole pixels.
+#include "scene/image_region.h"
 #include "scene/lights/light_meter.h"
-#include "scene/picture_region.h"
 
 #include "core/math.h"
 #include "scene/affine.h"
@@ -69,14 +69,14 @@ TEST(LightMeters, OfARemovedNodeStayInTheWorld) {
     EXPECT_FALSE(meter_on(flat, id, {1, 2, 3}, {0, 1, 0}, "").node) << "a flattened node has no inverse transform";
 }
 
-TEST(PictureRegions, AreWholePixels) {
+TEST(ImageRegions, AreWholePixels) {
     EXPECT_EQ(pixels_of({}, 640, 480), (PixelRect{0, 0, 640, 480}));
     EXPECT_EQ(pixels_of({0.25f, 0.5f, 0.5f, 0.25f}, 100, 10), (PixelRect{25, 5, 75, 8}));
     EXPECT_EQ(pixels_of({0.999f, 0.999f, 1e-6f, 1e-6f}, 100, 100), (PixelRect{99, 99, 100, 100})) << "one at least";
     // What the command line asks for in pixels comes back, whatever the size.
     for (const int width : {1, 7, 640, 65536})
         for (const int x : {0, width / 3, width - 1}) {
-            const PictureRegion r{float(x) / float(width), 0, float(width - x) / float(width), 1};
+            const ImageRegion r{float(x) / float(width), 0, float(width - x) / float(width), 1};
             EXPECT_EQ(pixels_of(r, width, 1), (PixelRect{x, 0, width, 1}));
         }
 }

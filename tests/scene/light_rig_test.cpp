@@ -76,11 +76,11 @@ TEST(LightRig, IsOfferedWithoutLight) {
     glowing.scene.materials.set(glowing.material, m);
     EXPECT_FALSE(has_light(glowing.scene));
 
-    Model picture;
+    Model image;
     m = {};
     m.unlit = true;
-    picture.scene.materials.set(picture.material, m);
-    EXPECT_TRUE(has_light(picture.scene)) << "unlit surfaces need none";
+    image.scene.materials.set(image.material, m);
+    EXPECT_TRUE(has_light(image.scene)) << "unlit surfaces need none";
 }
 
 TEST(LightRig, IsOfferedForABlackEnvironment) {

@@ -171,7 +171,7 @@ TEST(WorldBounds, IgnoreNonFiniteValues) {
     EXPECT_EQ(b.radius(), 0);
 }
 
-// Every corner of the box is inside the picture, and the sphere around it touches the narrower border.
+// Every corner of the box is inside the image, and the sphere around it touches the narrower border.
 TEST(Framed, ShowsTheWholeBounds) {
     std::mt19937 rng(5);
     std::normal_distribution<double> n;
@@ -186,7 +186,7 @@ TEST(Framed, ShowsTheWholeBounds) {
         const View f = framed(view, bounds, aspect);
         EXPECT_EQ(f.rotation, view.rotation);
         const Affined axes = to_affine(f.rotation);
-        double max_extrapolation = 0; // of the corners from the middle, in half pictures
+        double max_extrapolation = 0; // of the corners from the middle, in half images
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3d p{corner & 1 ? bounds.low.x : bounds.high.x, corner & 2 ? bounds.low.y : bounds.high.y,
                           corner & 4 ? bounds.low.z : bounds.high.z};

@@ -1,5 +1,5 @@
 // Says whether a UI frame looks different from the one on the screen. Most of a frame's time is drawing and swapping, which a frame
-// without a difference saves: while a picture is drawn over several UI frames, after input that changes nothing, or while ImGui
+// without a difference saves: while an image is drawn over several UI frames, after input that changes nothing, or while ImGui
 // settles.
 #pragma once
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double size_of_reach = 0.2, reach_factor = 0.45, max_reach_factor = 1.5;
 constexpr double room_fraction = 0.6; // fraction of the distance to a wall
 
-// Height of the picture in metres at a distance along the view axis.
+// Height of the image in metres at a distance along the view axis.
 double reach_at(const View& view, double distance) {
     return view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * distance * std::tan(view.lens.yfov_radians / 2.0);
 }
@@ -126,7 +126,7 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
         for (size_t i = 0; i < directions.size(); ++i) {
             const Vec3d& direction = directions[i];
             double distance = reach_factor * reach;
-            // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
+            // A floor that extends beyond the image is not a subject: the light need not be outside of it.
             if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach)
                 distance = std::max(distance, out);
             // Beside an object that stands close to the subject a light would light a spot of it: other directions come first.

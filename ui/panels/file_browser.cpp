@@ -142,14 +142,14 @@ void draw_places(PanelContext& c, float width, float height) {
 }
 
 // A thumbnail for a visible file that has one, else an icon.
-void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
+void draw_entry_image(PanelContext& c, const FileEntry& entry, float height) {
     const float width = height * Thumbnail::width / Thumbnail::height;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImTextureID picture = {};
+    ImTextureID image = {};
     if (!entry.folder && c.file_thumbnail && ImGui::IsRectVisible({width, height}))
-        picture = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
-    if (picture) {
-        ImGui::Image(picture, {width, height});
+        image = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
+    if (image) {
+        ImGui::Image(image, {width, height});
         c.ui.probe.record_last_item("Browser/Thumbnail/" + entry.name);
         return;
     }
@@ -164,9 +164,9 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const ExtensionFilter& filter = filter_of(b.use);
-    const bool pictured = filter != table_files && filter != photometric_files;
-    const float height = ImGui::GetTextLineHeight() * (pictured && !entry.folder ? 2.4f : 1.f);
-    draw_entry_picture(c, entry, height);
+    const bool imaged = filter != table_files && filter != photometric_files;
+    const float height = ImGui::GetTextLineHeight() * (imaged && !entry.folder ? 2.4f : 1.f);
+    draw_entry_image(c, entry, height);
     ImGui::SameLine();
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     const std::string shown = elided_middle(entry.name, ImGui::GetContentRegionAvail().x);

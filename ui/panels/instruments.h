@@ -1,4 +1,4 @@
-// The instruments: panels that measure, compare or analyse the picture, or list its lights and edits. They open in the docks
+// The instruments: panels that measure, compare or analyse the image, or list its lights and edits. They open in the docks
 // beside it.
 #pragma once
 

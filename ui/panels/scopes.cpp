@@ -120,7 +120,7 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
 void draw_scopes_panel(PanelContext& c) {
     ScopesView& view = c.ui.scopes;
     const float em = ImGui::GetFontSize();
-    if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of))
+    if (c.has_image() && view.scopes.ask(c.shown_image(), scopes_of))
         c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     static const Scopes nothing;
     const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;

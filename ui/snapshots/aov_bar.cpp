@@ -1,7 +1,7 @@
 #include "ui/snapshots/aov_bar.h"
 
 #include "ui/snapshots/aov_pixels.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
@@ -14,10 +14,9 @@ namespace blush {
 namespace {
 
 void draw_list(PanelContext& c, const Frame* frame) {
-    PictureView::Show before = PictureView::Show::beauty;
+    ImageView::Show before = ImageView::Show::beauty;
     for (const AovEntry& e : aov_list(frame)) {
-        if (e.view.show != before && (e.view.show == PictureView::Show::group || e.view.show == PictureView::Show::bounces))
-            ImGui::Separator();
+        if (e.view.show != before && (e.view.show == ImageView::Show::group || e.view.show == ImageView::Show::bounces)) ImGui::Separator();
         before = e.view.show;
         const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
         const std::string shown = elided(e.name, ImGui::GetFontSize() * 20);
@@ -28,7 +27,7 @@ void draw_list(PanelContext& c, const Frame* frame) {
     }
 }
 
-// On a field, so that it is readable over any picture.
+// On a field, so that it is readable over any image.
 void draw_mark(PanelContext& c) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetFrameHeight();
@@ -40,9 +39,9 @@ void draw_mark(PanelContext& c) {
 } // namespace
 
 void show_aov(PanelContext& c, const AovView& view) {
-    const bool lacks = view.show == PictureView::Show::bounces && c.frame && c.frame->bounces.empty();
+    const bool lacks = view.show == ImageView::Show::bounces && c.frame && c.frame->bounces.empty();
     c.ui.aov = view;
-    c.ui.bounces.mode = BouncesView::Mode::picture; // one of the two modes controls the viewport
+    c.ui.bounces.mode = BouncesView::Mode::image; // one of the two modes controls the viewport
     if (lacks) c.ui.toasts.note("Bounce passes are switched on: the render restarts");
 }
 
@@ -75,7 +74,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     ImGui::End();
 }
 
-void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view) {
+void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const ImageView& view) {
     const auto scale = is_special(frame, view) ? map_scale(frame, view.show) : std::nullopt;
     // Between the line at the upper edge and the environment dial.
     const float em = ImGui::GetFontSize(), top = em * 4.4f, room = seen.height - top - em * 6, swatch = em * 1.1f;

@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-using Show = PictureView::Show;
+using Show = ImageView::Show;
 
 constexpr Vec3 nothing_hit{0.004f, 0.012f, 0.06f};
 // Range of relative errors of the heat map, as powers of ten.

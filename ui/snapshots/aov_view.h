@@ -3,7 +3,7 @@
 
 #include "render/film/film_size.h"
 #include "render/frame.h"
-#include "ui/snapshots/picture_view.h"
+#include "ui/snapshots/image_view.h"
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace blush {
 
 struct AovView {
-    PictureView::Show show = PictureView::Show::beauty;
+    ImageView::Show show = ImageView::Show::beauty;
     int index = 0; // of the bounce or group
     bool operator==(const AovView&) const = default;
 };
@@ -32,7 +32,7 @@ std::string name_of(const AovView& view, const Frame* frame);
 AovView stepped(const AovView& view, const Frame* frame, int by);
 
 // `bounce_planes`: number in the frame.
-PictureView picture_view(const AovView& view, int bounce_planes);
+ImageView image_view(const AovView& view, int bounce_planes);
 // The film planes that it needs in addition to the default ones. None for the beauty.
 PlaneSet planes_of(const AovView& view);
 

@@ -10,10 +10,10 @@
 namespace blush {
 namespace {
 
-RgbImage seen(const Frame& frame, const DenoisedPicture* denoised, const DenoiseView& view) {
+RgbImage seen(const Frame& frame, const DenoisedImage* denoised, const DenoiseView& view) {
     RgbImage image{frame.width, frame.height, {}};
     image.pixels.reserve(frame.rgba.size() / 4);
-    const PictureMix mix = mix_of(view, denoised != nullptr);
+    const ImageMix mix = mix_of(view, denoised != nullptr);
     for (int y = 0; y < frame.height; ++y)
         for (int x = 0; x < frame.width; ++x) image.pixels.push_back(mixed_pixel(frame, denoised, mix, x, y));
     return image;
@@ -45,7 +45,7 @@ Difference difference_of(const DifferenceQuestion& q) {
     Difference d{.kind = q.kind};
     const Frame &a = *q.a, &b = *q.b;
     if (a.width != b.width || a.height != b.height) {
-        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only pictures of the same size can be compared.", a.width, a.height,
+        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only images of the same size can be compared.", a.width, a.height,
                                 b.width, b.height);
         return d;
     }

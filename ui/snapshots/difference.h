@@ -1,4 +1,4 @@
-// Difference of two pictures: an image and numbers. Takes longer than one UI frame.
+// Difference of two images: an image and numbers. Takes longer than one UI frame.
 #pragma once
 
 #include "measure/metrics/metrics.h"
@@ -14,7 +14,7 @@ namespace blush {
 // B is the reference.
 struct DifferenceQuestion {
     FramePtr a, b;
-    DenoisedPtr denoised_a, denoised_b; // null: use the raw picture
+    DenoisedPtr denoised_a, denoised_b; // null: use the raw image
     DenoiseView view;
     DifferenceKind kind = DifferenceKind::absolute;
     bool operator==(const DifferenceQuestion&) const = default;
@@ -32,7 +32,7 @@ struct Difference {
 };
 Difference difference_of(const DifferenceQuestion& question);
 
-// Caption of the picture: "|A - B|", ...
+// Caption of the image: "|A - B|", ...
 std::string caption_of(DifferenceKind kind);
 
 } // namespace blush

@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// Bytes of its pictures, planes and samples; without payloads shared with the scene.
+// Bytes of its images, planes and samples; without payloads shared with the scene.
 size_t bytes_of(const Snapshot& snapshot);
 size_t bytes_of(const std::vector<SnapshotPtr>& list);
 

@@ -116,7 +116,7 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     if (nearest != Handle::none) return nearest;
     best = reach / 2;
     for (const HandleShape& shape : shapes) {
-        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only the grips can be grabbed
+        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the image; only the grips can be grabbed
         const float d = shape.ring.empty() ? distance_to_segment(mouse, shape.from, shape.grip) : distance_to_line(mouse, shape.ring);
         if (d < best) {
             best = d;

@@ -1,4 +1,4 @@
-// The handles of the selection: drawn over the picture, dragged with the mouse, one undo step per drag. They move, rotate, scale,
+// The handles of the selection: drawn over the image, dragged with the mouse, one undo step per drag. They move, rotate, scale,
 // aim and resize all selected nodes.
 #pragma once
 

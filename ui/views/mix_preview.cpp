@@ -58,7 +58,7 @@ void MixPreview::mix(const Kept& kept, const Gains& gains, std::vector<float>& r
     mixing_ = per_millisecond(double(rgb.size() / 3) * double(gains.size()), begin);
 }
 
-MixPreview::Picture MixPreview::raw(const MixPreviewSource& moved, const Gains& gains, int step) {
+MixPreview::Preview MixPreview::raw(const MixPreviewSource& moved, const Gains& gains, int step) {
     const Frame& frame = *moved.frame;
     const int width = std::max(frame.width / step, 1), height = std::max(frame.height / step, 1);
     const size_t pixels = size_t(width) * size_t(height);
@@ -72,9 +72,9 @@ MixPreview::Picture MixPreview::raw(const MixPreviewSource& moved, const Gains& 
     return {width, height, raw_.rgba};
 }
 
-MixPreview::Picture MixPreview::denoised(const MixPreviewSource& moved, const Gains& gains, int step) {
-    const DenoisedPicture& picture = *moved.denoised;
-    thin(denoised_, moved.denoised, planes_of(picture), picture.width, picture.height, step);
+MixPreview::Preview MixPreview::denoised(const MixPreviewSource& moved, const Gains& gains, int step) {
+    const DenoisedImage& image = *moved.denoised;
+    thin(denoised_, moved.denoised, planes_of(image), image.width, image.height, step);
     const int width = denoised_.planes.width, height = denoised_.planes.height;
     mix(denoised_, gains, room(denoised_.rgb, 3 * size_t(width) * size_t(height), 0.f));
     return {width, height, denoised_.rgb};

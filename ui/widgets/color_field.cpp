@@ -17,7 +17,7 @@ constexpr float max_color = 1e6f;
 
 ImVec4 shown(const Vec3& linear) { return {srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z), 1}; }
 
-// The next click in the picture sets the field with this id.
+// The next click in the image sets the field with this id.
 void take_dropper(UiState& ui, unsigned field) {
     ui.values.dropper = field;
     ui.values.picked.reset();
@@ -101,8 +101,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
             ImGui::CloseCurrentPopup();
         }
         ui_.probe.record_last_item(path + "/Pick");
-        tip_for_last_item(ui_,
-                          "Pick the colour of a pixel in the picture: scene-linear, before exposure, white balance and view transform.");
+        tip_for_last_item(ui_, "Pick the colour of a pixel in the image: scene-linear, before exposure, white balance and view transform.");
         ImGui::EndPopup();
     }
     static constexpr const char* ids[] = {"##R", "##G", "##B"};

@@ -26,7 +26,7 @@ ValueAction menu(UiState& ui, const std::string& name, bool is_color, bool has_s
     if (has_siblings) item("Copy all three", ValueAction::copy_all);
     item("Paste", ValueAction::paste, paste.c_str());
     ImGui::Separator();
-    if (is_color) item("Pick from the picture", ValueAction::pick);
+    if (is_color) item("Pick from the image", ValueAction::pick);
     item("Reset to default", ValueAction::reset, reset.c_str());
     return wish;
 }

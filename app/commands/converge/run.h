@@ -28,7 +28,7 @@ struct MeasuredPoint {
 struct VariantResult {
     Variant variant;
     std::vector<MeasuredPoint> points;
-    MeasuredImage picture;           // mean of all repeats
+    MeasuredImage mean;              // of all repeats
     PowerFit over_seconds, over_spp; // fits of RMSE; only of points whose reference is clearly better
     Interval efficiency;             // 1 / (MSE x seconds), from the last points of the repeats
     BiasTest bias;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "scene/picture_region.h"
+#include "scene/image_region.h"
 #include "scene/scene.h"
 
 #include <array>

@@ -283,7 +283,7 @@ Faults faults_of_extensions() {
         {"spot without a cone", without("/extensions/KHR_lights_punctual/lights/0", "spot")},
         {"image that is none",
          [](GltfBuilder& b) {
-             b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}};
+             b.json["images"][0] = {{"bufferView", b.buffer_view("no image, but words")}, {"mimeType", "image/png"}};
          }},
         {"image of another kind", set("/images/0/mimeType", "image/jpeg")},
         {"image without a kind", without("/images/0", "mimeType")},

@@ -286,7 +286,7 @@ TEST(GltfSaveFiles, CopiesReferencedFiles) {
     const ImportedScene original = load(rich_gltf(folder));
     const auto saved = save_gltf(original.origin, {original.scene, {}, {}}, elsewhere / "scene.gltf");
     ASSERT_TRUE(saved) << error_text(saved);
-    EXPECT_TRUE(std::filesystem::exists(elsewhere / "pictures/two by two.png"));
+    EXPECT_TRUE(std::filesystem::exists(elsewhere / "images/two by two.png"));
     EXPECT_EQ(scene_hash(load(elsewhere / "scene.gltf").scene), scene_hash(original.scene));
     EXPECT_EQ(OrderedJson::parse(*saved->origin.json), OrderedJson::parse(*original.origin.json));
 }

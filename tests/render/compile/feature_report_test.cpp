@@ -55,7 +55,7 @@ GeometryPtr dressed_quad() {
     return std::make_shared<const Geometry>(g);
 }
 
-ImagePtr texels(int side) { return float_picture(side, side, std::vector<Vec3>(size_t(side) * size_t(side), {0.5f, 0.5f, 1})); }
+ImagePtr texels(int side) { return float_image(side, side, std::vector<Vec3>(size_t(side) * size_t(side), {0.5f, 0.5f, 1})); }
 
 Scene rich() {
     Scene scene;
@@ -193,7 +193,7 @@ TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
     for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {64, 32}, {500, 250}}) {
         Environment e;
         e.kind = Environment::Kind::image;
-        e.image = float_picture(width, height, std::vector<Vec3>(size_t(width * height), {1, 2, 3}));
+        e.image = float_image(width, height, std::vector<Vec3>(size_t(width * height), {1, 2, 3}));
         const EnvironmentTable t = build_environment_table(e);
         const auto bytes = [](const auto& v) { return int64_t(v.capacity() * sizeof(v[0])); };
         const EnvironmentBytes expected = environment_bytes(width, height);

@@ -3,7 +3,7 @@
 #include "render/compile/render_scene.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/kernels/kernel.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cstring>
@@ -95,7 +95,7 @@ Scene everything() {
     Scene scene;
     std::vector<Vec3> texels;
     for (int i = 0; i < 64; ++i) texels.push_back({0.1f + float(i % 7) / 8, 0.5f, 0.2f + float(i % 5) / 7});
-    const Id<Texture> noise = add_texture(scene, float_picture(8, 8, texels), Texture::Filter::linear);
+    const Id<Texture> noise = add_texture(scene, float_image(8, 8, texels), Texture::Filter::linear);
 
     Geometry g = *floor_quad(3);
     g.serial = next_payload_serial();
@@ -146,7 +146,7 @@ Scene everything() {
     light.kind = Light::Kind::rectangle;
     place_light(scene, light, aimed({2, 2, 2}, {-1, -1, -1}));
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_picture(8, 8, texels);
+    scene.environment.image = float_image(8, 8, texels);
     scene.view = looking({1, 2.5f, 4}, {0.2f, 0.3f, 0}, 0.8f);
     scene.view.lens.aperture_radius = 0.05f;
     scene.view.lens.focus_distance = 4;

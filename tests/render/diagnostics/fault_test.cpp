@@ -1,6 +1,6 @@
 // Invalid samples are traced to their cause: by hand-made vertices for every place, and end to end.
 #include "render/diagnostics/fault_finder.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -110,7 +110,7 @@ TEST(Fault, DoesNotPoisonTheErrorEstimate) {
     values[0] = {3e38f, 3e38f, 3e38f};
     Scene scene;
     Material material = emitter(5, 0.5f);
-    const Id<Texture> texture = add_texture(scene, float_picture(8, 8, values));
+    const Id<Texture> texture = add_texture(scene, float_image(8, 8, values));
     Texture unfiltered = *scene.textures.find(texture); // else its neighbours would be extremely bright but finite
     unfiltered.filter = Texture::Filter::nearest;
     scene.textures.set(texture, unfiltered);

@@ -1,5 +1,5 @@
 // Bounce planes: they sum to the beauty, hold the right light, and cost nothing if not requested.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cstdlib>

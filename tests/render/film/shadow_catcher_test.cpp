@@ -2,7 +2,7 @@
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -203,15 +203,15 @@ TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
     scene.view = looking({0, 1.2f, 3}, {0, 0.5f, 0}, 0.7f);
     RenderSettings settings = settings_for(32, 32, 1);
     const PlaneSet planes{.depth = true, .ids = true};
-    const auto picture = [&] {
+    const auto image = [&] {
         Renderer renderer({.threads = 1, .planes = planes});
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
         return renderer.resolve();
     };
-    const Frame plain = picture();
+    const Frame plain = image();
     catch_shadows_with(scene, floor);
-    const Frame caught = picture();
+    const Frame caught = image();
     int objects = 0;
     for (size_t i = 0; i < plain.object_id.size(); ++i) {
         if (plain.object_id[i] == floor.value) {

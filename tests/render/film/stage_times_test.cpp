@@ -1,5 +1,5 @@
 // The profile by stage: what a scene needs takes time, what it does not need takes none, and all of it is time of the threads.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <chrono>

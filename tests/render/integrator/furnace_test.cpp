@@ -1,6 +1,6 @@
 // White furnace tests: in uniform light, a lossless object is invisible.
 #include "shading/energy.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>

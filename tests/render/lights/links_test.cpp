@@ -1,7 +1,7 @@
 // Light and shadow linking: illuminated objects and shadow casters, the same for NEE and BSDF sampling.
 #include "render/lights/light_links.h"
 
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <functional>
@@ -43,7 +43,7 @@ struct Stage {
 constexpr Light::Kind kinds[] = {Light::Kind::rectangle, Light::Kind::disk, Light::Kind::sphere, Light::Kind::sun, Light::Kind::point};
 constexpr Strategy strategies[] = {Strategy::mis, Strategy::light, Strategy::bsdf};
 
-Picture shot(const Scene& scene, Strategy strategy, int64_t spp, int max_bounces = unlimited_bounces) {
+RenderedImage shot(const Scene& scene, Strategy strategy, int64_t spp, int max_bounces = unlimited_bounces) {
     RenderSettings settings = settings_for(32, 32, spp);
     settings.strategy = strategy;
     settings.max_bounces = max_bounces;
@@ -56,10 +56,10 @@ double light_on(const Scene& scene, Id<Node> object, Strategy strategy) {
     settings.strategy = strategy;
     settings.max_bounces = 1;
     settings.filter = PixelFilter::box;
-    const Picture picture = render(scene, settings, {.ids = true});
+    const RenderedImage image = render(scene, settings, {.ids = true});
     double sum = 0;
-    for (size_t i = 0; i < picture.pixels.size(); ++i)
-        if (picture.frame.object_id[i] == object.value) sum += picture.pixels[i].y;
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        if (image.frame.object_id[i] == object.value) sum += image.pixels[i].y;
     return sum;
 }
 

@@ -6,7 +6,7 @@
 #include "render/lights/light_tree.h"
 #include "render/lights/mesh_lights.h"
 #include "shading/light.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cmath>

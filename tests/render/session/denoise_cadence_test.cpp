@@ -53,7 +53,7 @@ TEST(DenoiseCadence, NothingIsDueBeforeTheFirstFrame) {
     EXPECT_TRUE(std::isinf(cadence.next(0).wait));
 }
 
-TEST(DenoiseCadence, TheFirstFullPictureIsDenoisedAtOnceByTheSmallNetwork) {
+TEST(DenoiseCadence, TheFirstFullImageIsDenoisedAtOnceByTheSmallNetwork) {
     Bench bench;
     for (uint64_t image = 1; image < 6; ++image) {
         bench.done.clear();
@@ -78,11 +78,11 @@ TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
             const bool last = i + 1 == bench.done.size();
             if (i == 0 || last) continue; // those two are guaranteed at any cost
             if (d.samples >= DenoiseCadence::renewal_growth * bench.done[i - 1].samples) {
-                EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+                EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "image " << i << " of " << slowness;
                 continue;
             }
             EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::min_interval - 1e-9);
-            EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+            EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "image " << i << " of " << slowness;
         }
     }
 }
@@ -109,7 +109,7 @@ TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
         return decision.pauses_rendering;
     };
     EXPECT_TRUE(pauses(0, 0.9, 1, 0)) << "the first one, whose time is not known";
-    EXPECT_FALSE(pauses(0, 33, 1, 0)) << "the first one of a large picture";
+    EXPECT_FALSE(pauses(0, 33, 1, 0)) << "the first one of a large image";
     EXPECT_TRUE(pauses(0.2, 0.9, 2, 1));
     EXPECT_FALSE(pauses(1.5, 0.9, 2, 1)) << "on a slow machine";
     EXPECT_FALSE(pauses(0.2, 0.9, 1, 100)) << "the large network, used after a while without edits";
@@ -173,7 +173,7 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
     }
 }
 
-TEST(DenoiseCadence, AfterACoarsePictureTheFirstFullOneIsDueAtOnce) {
+TEST(DenoiseCadence, AfterACoarseImageTheFirstFullOneIsDueAtOnce) {
     Bench bench;
     bench.render(1, 3);
     const Source coarse{2, 1, 4, false, 1.0 / 16}, full{2, 1, 1, false, 1};

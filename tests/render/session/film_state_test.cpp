@@ -4,7 +4,7 @@
 #include "scene/reuse_setting.h"
 
 #include "tests/render/session/recording_session.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <cmath>
@@ -28,9 +28,9 @@ Project small_project() {
     return project;
 }
 
-// Properties of a film that same_picture() does not compare.
+// Properties of a film that same_pixels() does not compare.
 void expect_same_planes(const Frame& a, const Frame& b) {
-    EXPECT_TRUE(test::same_picture(a, b));
+    EXPECT_TRUE(test::same_pixels(a, b));
     EXPECT_EQ(a.bounces, b.bounces);
     EXPECT_EQ(a.path_length, b.path_length);
     EXPECT_EQ(a.survival, b.survival);
@@ -243,7 +243,7 @@ TEST(SessionFilm, IsThatOfTheFrameThatComesWithIt) {
     const RequestedFilm kept = kept_film(session);
     ASSERT_TRUE(kept.film) << kept.why_none;
     EXPECT_EQ(kept.revision, 1u);
-    EXPECT_TRUE(test::same_picture(*kept.frame, *session->latest()));
+    EXPECT_TRUE(test::same_pixels(*kept.frame, *session->latest()));
     EXPECT_EQ(kept.film->samples, 20);
     EXPECT_EQ(kept.error.size(), size_t(p.render.width * p.render.height));
 }
@@ -267,12 +267,12 @@ TEST(SessionFilm, RestoredAndContinuedEqualsUninterrupted) {
     session->submit(3, p.scene, p.render, {}, kept.film);
     const FramePtr restored = session.wait_for(3, State::complete).frame;
     ASSERT_TRUE(restored);
-    EXPECT_TRUE(test::same_picture(*restored, *kept.frame));
-    EXPECT_TRUE(test::same_picture(*restored, test::fresh_picture(p.scene, p.render, 8)));
+    EXPECT_TRUE(test::same_pixels(*restored, *kept.frame));
+    EXPECT_TRUE(test::same_pixels(*restored, test::fresh_image(p.scene, p.render, 8)));
 
     p.render.spp = 20;
     session->submit(4, p.scene, p.render);
-    EXPECT_TRUE(test::same_picture(*session.wait_for(4, State::complete).frame, test::fresh_picture(p.scene, p.render, 20)));
+    EXPECT_TRUE(test::same_pixels(*session.wait_for(4, State::complete).frame, test::fresh_image(p.scene, p.render, 20)));
     for (const FramePtr& frame : session.frames()) EXPECT_TRUE(frame->revision < 3 || frame->samples >= 8) << "it restarted";
 }
 
@@ -321,7 +321,7 @@ TEST(SessionFilm, SurvivesASubmissionThatReplacesThePendingOne) {
     p.render.spp = 24;
     session->submit(4, p.scene, p.render);
     const FramePtr frame = session.wait_for(4, State::complete).frame;
-    EXPECT_TRUE(test::same_picture(*frame, test::fresh_picture(p.scene, p.render, 24)));
+    EXPECT_TRUE(test::same_pixels(*frame, test::fresh_image(p.scene, p.render, 24)));
     for (const FramePtr& f : session.frames()) EXPECT_TRUE(f->revision < 3 || f->samples >= 20) << "it restarted";
 }
 

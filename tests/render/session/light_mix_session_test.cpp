@@ -2,7 +2,7 @@
 #include "render/light_mix/light_mix.h"
 #include "render/session/render_session.h"
 #include "tests/render/session/recording_session.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(SessionMix, AppliesToExistingSamples) {
     session->submit(3, lamps.project.scene, lamps.project.render);
     const FramePtr moved = frame_of(session, 3);
     ASSERT_TRUE(moved);
-    EXPECT_EQ(moved->rgba, test::fresh_picture(lamps.project.scene, lamps.project.render, 8).rgba);
+    EXPECT_EQ(moved->rgba, test::fresh_image(lamps.project.scene, lamps.project.render, 8).rgba);
 }
 
 // A mix submitted before its image was applied still uses planes with that image's own emission.

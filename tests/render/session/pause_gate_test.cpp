@@ -3,7 +3,7 @@
 
 #include "tests/render/session/recording_session.h"
 #include "tests/support/eventually.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(YieldToUi, ContinuesFromTheSameSamples) {
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
     EXPECT_EQ(done.frame->samples, 80);
-    EXPECT_EQ(done.frame->rgba, test::fresh_picture(project.scene, project.render, 80).rgba);
+    EXPECT_EQ(done.frame->rgba, test::fresh_image(project.scene, project.render, 80).rgba);
     EXPECT_NE(session.events()[before].status.state, State::yielding) << "nothing is announced before it resumes";
 }
 

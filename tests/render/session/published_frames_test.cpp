@@ -6,26 +6,26 @@ namespace blush::TEST_FILE {
 namespace {
 
 FramePtr frame() { return std::make_shared<const Frame>(); }
-DenoisedPtr denoised() { return std::make_shared<const DenoisedPicture>(); }
+DenoisedPtr denoised() { return std::make_shared<const DenoisedImage>(); }
 
-TEST(PublishedFrames, ADenoisedPictureLivesAsLongAsItsImage) {
+TEST(PublishedFrames, ADenoisedImageLivesAsLongAsItsImage) {
     PublishedFrames showcase;
     const FramePtr first = frame(), second = frame(), other = frame();
-    const DenoisedPtr picture = denoised();
+    const DenoisedPtr image = denoised();
     showcase.show(1, first);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr);
-    showcase.answer(1, first, picture);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
+    EXPECT_EQ(showcase.images().denoised, nullptr);
+    showcase.answer(1, first, image);
+    EXPECT_EQ(showcase.images().denoised, image);
     showcase.show(1, second);
-    EXPECT_EQ(showcase.pictures().frame, second);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
+    EXPECT_EQ(showcase.images().frame, second);
+    EXPECT_EQ(showcase.images().denoised, image);
     showcase.answer(1, second, nullptr);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "a skipped frame keeps the denoised image";
+    EXPECT_EQ(showcase.images().denoised, image) << "a skipped frame keeps the denoised image";
     showcase.show(2, other);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr);
+    EXPECT_EQ(showcase.images().denoised, nullptr);
     showcase.answer(1, second, denoised());
-    EXPECT_EQ(showcase.pictures().frame, other);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr) << "its image is no longer shown";
+    EXPECT_EQ(showcase.images().frame, other);
+    EXPECT_EQ(showcase.images().denoised, nullptr) << "its image is no longer shown";
 }
 
 TEST(PublishedFrames, AWithheldFrameIsShownWithItsDenoisedVersion) {
@@ -33,11 +33,11 @@ TEST(PublishedFrames, AWithheldFrameIsShownWithItsDenoisedVersion) {
     const FramePtr old = frame(), next = frame();
     showcase.show(1, old);
     showcase.withhold(2, next);
-    EXPECT_EQ(showcase.pictures().frame, old);
-    const DenoisedPtr picture = denoised();
-    showcase.answer(2, next, picture);
-    EXPECT_EQ(showcase.pictures().frame, next);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
+    EXPECT_EQ(showcase.images().frame, old);
+    const DenoisedPtr image = denoised();
+    showcase.answer(2, next, image);
+    EXPECT_EQ(showcase.images().frame, next);
+    EXPECT_EQ(showcase.images().denoised, image);
 }
 
 TEST(PublishedFrames, AWithheldFrameIsShownIfDenoisingFails) {
@@ -49,23 +49,23 @@ TEST(PublishedFrames, AWithheldFrameIsShownIfDenoisingFails) {
             showcase.answer(1, next, nullptr);
         else
             showcase.release();
-        EXPECT_EQ(showcase.pictures().frame, next);
-        EXPECT_EQ(showcase.pictures().denoised, nullptr);
+        EXPECT_EQ(showcase.images().frame, next);
+        EXPECT_EQ(showcase.images().denoised, nullptr);
         showcase.release();
-        EXPECT_EQ(showcase.pictures().frame, next) << "nothing is withheld any more";
+        EXPECT_EQ(showcase.images().frame, next) << "nothing is withheld any more";
     }
 }
 
 TEST(PublishedFrames, ALaterFrameIsShownAtOnce) {
     PublishedFrames showcase;
     const FramePtr coarse = frame(), fine = frame();
-    const DenoisedPtr picture = denoised();
+    const DenoisedPtr image = denoised();
     showcase.withhold(1, coarse);
     showcase.show(1, fine);
-    EXPECT_EQ(showcase.pictures().frame, fine);
-    showcase.answer(1, coarse, picture);
-    EXPECT_EQ(showcase.pictures().frame, fine);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of the same image";
+    EXPECT_EQ(showcase.images().frame, fine);
+    showcase.answer(1, coarse, image);
+    EXPECT_EQ(showcase.images().frame, fine);
+    EXPECT_EQ(showcase.images().denoised, image) << "coarser, but of the same image";
 }
 
 TEST(PublishedFrames, ADragFasterThanTheDenoiserStillShowsSomething) {
@@ -76,11 +76,11 @@ TEST(PublishedFrames, ADragFasterThanTheDenoiserStillShowsSomething) {
     showcase.withhold(3, third);
     const DenoisedPtr of_second = denoised(), of_third = denoised();
     showcase.answer(2, second, of_second);
-    EXPECT_EQ(showcase.pictures().frame, second);
-    EXPECT_EQ(showcase.pictures().denoised, of_second);
+    EXPECT_EQ(showcase.images().frame, second);
+    EXPECT_EQ(showcase.images().denoised, of_second);
     showcase.answer(3, third, of_third);
-    EXPECT_EQ(showcase.pictures().frame, third);
-    EXPECT_EQ(showcase.pictures().denoised, of_third);
+    EXPECT_EQ(showcase.images().frame, third);
+    EXPECT_EQ(showcase.images().denoised, of_third);
 }
 
 } // namespace

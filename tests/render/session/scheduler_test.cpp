@@ -53,7 +53,7 @@ Scheduler experienced(const Machine& machine, const RenderSettings& settings) {
     return scheduler;
 }
 
-TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
+TEST(Scheduler, FirstImageIsTheFinestThatFits) {
     for (const double sample_seconds : {0.001, 0.02, 0.03, 0.09, 0.3, 0.7}) {
         const Scheduler scheduler = experienced({sample_seconds}, endless());
         const int d = scheduler.next().divider;
@@ -62,7 +62,7 @@ TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
     }
 }
 
-TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
+TEST(Scheduler, FirstImagesKeepTheirSizeWhileTimingsVary) {
     // Just at the border between 1/3 and 1/4: a sample takes 9/60 s, more or less.
     Scheduler scheduler = experienced({9 * Scheduler::first_image_seconds}, endless());
     const int first = scheduler.next().divider;
@@ -77,7 +77,7 @@ TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
     EXPECT_EQ(scheduler.next().divider, 5) << "a scene that became slower";
 }
 
-TEST(Scheduler, FirstPictureLeavesTimeForDenoising) {
+TEST(Scheduler, FirstImageLeavesTimeForDenoising) {
     const double pixels = 1280 * 720, sample_seconds = 0.2;
     for (const double denoising : {0.1, 0.2, 0.4, 1.0}) {
         Scheduler scheduler = experienced({sample_seconds}, endless());
@@ -94,7 +94,7 @@ TEST(Scheduler, FirstPictureLeavesTimeForDenoising) {
     EXPECT_EQ(fast.next().divider, 1) << "full resolution needs no coarse image";
 }
 
-TEST(Scheduler, FirstPictureHasAMinimumSize) {
+TEST(Scheduler, FirstImageHasAMinimumSize) {
     EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
         const int d = experienced({1000}, endless(width, 3)).next().divider;
@@ -117,7 +117,7 @@ TEST(Scheduler, NonInteractiveItBeginsAtFullResolution) {
     EXPECT_EQ(scheduler.next().divider, 1);
 }
 
-TEST(Scheduler, FirstPictureIsAlwaysFinishedAndShown) {
+TEST(Scheduler, FirstImageIsAlwaysFinishedAndShown) {
     for (const double sample_seconds : {0.001, 0.1, 5.0}) {
         const Machine machine{sample_seconds};
         Scheduler scheduler = experienced(machine, endless());
@@ -214,18 +214,18 @@ TEST(Scheduler, DisplayIntervalsGrowUpToALimit) {
         const Machine machine{sample_seconds};
         Scheduler scheduler = experienced(machine, endless());
         double now = 0, shown = 0;
-        int pictures = 0;
+        int images = 0;
         while (now < 60) {
             const Work work = scheduler.next();
             machine.do_work(scheduler, work);
             now += machine.seconds(work);
             if (!work.publish) continue;
-            ++pictures;
+            ++images;
             EXPECT_LE(now - shown, longest_wait(now) + sample_seconds + 1e-9) << "at " << now << " of " << sample_seconds;
             if (shown > 16) { EXPECT_GE(now - shown, 0.9 - 1e-9) << "resolving costs"; }
             shown = now;
         }
-        EXPECT_LT(pictures, 130);
+        EXPECT_LT(images, 130);
     }
 }
 
@@ -237,7 +237,7 @@ TEST(Scheduler, StopsAtTheNumberOfSamples) {
         Scheduler scheduler = experienced(machine, settings);
         const std::vector<Work> done = machine.run(scheduler);
         EXPECT_EQ(scheduler.samples(), spp);
-        EXPECT_TRUE(done.back().publish) << "the last picture is shown";
+        EXPECT_TRUE(done.back().publish) << "the last image is shown";
     }
 }
 

@@ -27,8 +27,8 @@ FramePtr plain_frame(int width, int height, float value) {
 
 Snapshot snapshot(float value, int width = 32, int height = 20) {
     Snapshot s;
-    s.pictures.frame = plain_frame(width, height, value);
-    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    s.images.frame = plain_frame(width, height, value);
+    s.thumbnail = thumbnail_of(*s.images.frame);
     s.time = "12:34";
     return s;
 }
@@ -83,9 +83,9 @@ TEST(SnapshotMemory, CountsBytes) {
     auto film = std::make_shared<FilmState>();
     film->planes = {{.name = "even.R", .sums = std::vector<double>(100)}, {.name = "depth", .words = std::vector<uint32_t>(100)}};
     s.film = film;
-    auto denoised = std::make_shared<DenoisedPicture>();
+    auto denoised = std::make_shared<DenoisedImage>();
     denoised->denoised.rgb.resize(300);
-    s.pictures.denoised = denoised;
+    s.images.denoised = denoised;
     s.error.resize(100);
     EXPECT_EQ(bytes_of(s), 100 * (4 * sizeof(float) + sizeof(double) + sizeof(uint32_t) + 3 * sizeof(float) + sizeof(Vec3)));
     const std::string figures = s.figures();

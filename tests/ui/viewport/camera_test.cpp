@@ -25,7 +25,7 @@ View sample_view() {
     return view;
 }
 
-TEST(Projection, CentreOfThePictureIsOnTheViewAxis) {
+TEST(Projection, CentreOfTheImageIsOnTheViewAxis) {
     const Projection p(sample_view(), 1.5);
     const auto point = p.project({1, 2, 0});
     ASSERT_TRUE(point);

@@ -1,6 +1,6 @@
-// Zoom and pan of the picture.
+// Zoom and pan of the image.
 #include "tests/ui/imgui_test.h"
-#include "ui/viewport/picture_zoom.h"
+#include "ui/viewport/image_zoom.h"
 #include "ui/viewport/pixel_grid.h"
 
 #include <gtest/gtest.h>
@@ -17,44 +17,44 @@ void expect_rect(const ImageRect& got, const ImageRect& wanted) {
     EXPECT_EQ(got.height, wanted.height);
 }
 
-TEST(PictureZoom, TogglesFitAndOneToOne) {
-    expect_rect(picture_rect({}, region, 1600, 900), {100, 125, 800, 450});
-    const PictureZoom one = toggled({});
-    expect_rect(picture_rect(one, region, 1600, 900), {-300, -100, 1600, 900});
-    expect_rect(picture_rect(one, region, 400, 300), {300, 200, 400, 300});
-    EXPECT_EQ(toggled(one), PictureZoom{});
+TEST(ImageZoom, TogglesFitAndOneToOne) {
+    expect_rect(image_rect({}, region, 1600, 900), {100, 125, 800, 450});
+    const ImageZoom one = toggled({});
+    expect_rect(image_rect(one, region, 1600, 900), {-300, -100, 1600, 900});
+    expect_rect(image_rect(one, region, 400, 300), {300, 200, 400, 300});
+    EXPECT_EQ(toggled(one), ImageZoom{});
 }
 
-TEST(PictureZoom, ZoomsAboutTheMouse) {
-    PictureZoom zoom;
+TEST(ImageZoom, ZoomsAboutTheMouse) {
+    ImageZoom zoom;
     const ScreenPoint mouse{333, 222};
-    const ImageRect before = picture_rect(zoom, region, 1600, 900);
+    const ImageRect before = image_rect(zoom, region, 1600, 900);
     const double u = before.u(mouse.x), v = before.v(mouse.y);
     for (int i = 0; i < 12; ++i) {
         zoom = zoomed(zoom, region, 1600, 900, mouse, 1.5);
-        const ImageRect now = picture_rect(zoom, region, 1600, 900);
+        const ImageRect now = image_rect(zoom, region, 1600, 900);
         EXPECT_NEAR(now.u(mouse.x) * now.width, u * now.width, 1) << "on whole pixels of the screen";
         EXPECT_NEAR(now.v(mouse.y) * now.height, v * now.height, 1);
     }
     EXPECT_GT(zoom.scale, 60);
 }
 
-TEST(PictureZoom, IsClampedToFitAndMaximum) {
-    PictureZoom zoom;
+TEST(ImageZoom, IsClampedToFitAndMaximum) {
+    ImageZoom zoom;
     for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 2);
     EXPECT_EQ(zoom.scale, max_zoom);
     for (int i = 0; i < 100; ++i) zoom = zoomed(zoom, region, 1600, 900, {500, 350}, 0.5);
-    EXPECT_EQ(zoom, PictureZoom{});
+    EXPECT_EQ(zoom, ImageZoom{});
 }
 
-TEST(PictureZoom, PanKeepsTheCentreInsideThePicture) {
-    const PictureZoom one = toggled({});
-    const PictureZoom moved = shifted(one, region, 1600, 900, -160, 90);
-    const ImageRect before = picture_rect(one, region, 1600, 900), after = picture_rect(moved, region, 1600, 900);
+TEST(ImageZoom, PanKeepsTheCentreInsideTheImage) {
+    const ImageZoom one = toggled({});
+    const ImageZoom moved = shifted(one, region, 1600, 900, -160, 90);
+    const ImageRect before = image_rect(one, region, 1600, 900), after = image_rect(moved, region, 1600, 900);
     EXPECT_EQ(after.x, before.x - 160);
     EXPECT_EQ(after.y, before.y + 90);
-    EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (PictureZoom{1, 1, 0}));
-    EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), PictureZoom{}) << "fit is not panned";
+    EXPECT_EQ(shifted(one, region, 1600, 900, -1e6, 1e6), (ImageZoom{1, 1, 0}));
+    EXPECT_EQ(shifted({}, region, 1600, 900, 50, 50), ImageZoom{}) << "fit is not panned";
 }
 
 // Pixels of a coarse preview have no grid.

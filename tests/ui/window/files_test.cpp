@@ -107,7 +107,7 @@ TEST_F(Files, RecentFilesAreUniqueNewestFirstAndLimited) {
 TEST_F(Files, ListsFoldersFirstThenMatchingFiles) {
     write("b.GLB", "12345");
     write("a.gltf", "");
-    write("picture.png", "");
+    write("image.png", "");
     write(".hidden.glb", "");
     write("Zoo/x.glb", "");
     const auto list = list_folder(folder, scene_files);

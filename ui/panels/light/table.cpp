@@ -1,4 +1,4 @@
-// Light table: all lights and emissive materials by group, with their share of the picture's light and noise. Rows can be dragged
+// Light table: all lights and emissive materials by group, with their share of the image's light and noise. Rows can be dragged
 // between groups.
 #include "ui/gl/icons.h"
 #include "ui/lights/light_groups.h"
@@ -23,7 +23,7 @@ namespace blush {
 namespace {
 
 constexpr const char* how_to_get_shares =
-    "Share of the picture's light and noise. Available while the light mix renders groups: choose Groups there.";
+    "Share of the image's light and noise. Available while the light mix renders groups: choose Groups there.";
 
 constexpr const char* of_its_group = "Share of the whole group: the light mix renders one plane per group.";
 
