@@ -57,7 +57,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
         view.bounce = clicked;
         view.playing = false;
     }
-    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains)) quiet_text("The bounce passes do not include the light mix.");
+    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains)) quiet_text("The bounce AOVs do not include the light mix.");
     quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the image's light.", 100 * direct, 100 * (1 - direct)));
 }
 
@@ -66,7 +66,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
 void draw_bounces_panel(PanelContext& c) {
     BouncesView& view = c.ui.bounces;
     const std::vector<BounceEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<BounceEnergy>();
-    if (energies.empty()) return quiet_text("Waiting for a render with bounce passes.");
+    if (energies.empty()) return quiet_text("Waiting for a render with bounce AOVs.");
     Fields f(c.ui, "Bounces");
     int mode = int(view.mode);
     if (f.choice("Show", mode, BouncesView::names, "What the viewport shows. It does not restart the render and is not saved.")) {

@@ -1,4 +1,4 @@
-// Converts passes (AOVs) to colours: albedo, normal, depth, ids, error, samples.
+// Converts AOVs to colours: albedo, normal, depth, ids, error, samples.
 #pragma once
 
 #include "render/frame.h"
@@ -9,7 +9,7 @@
 
 namespace blush {
 
-// Colours of a data pass (is_data()) that the frame must have: width * height * 4 linear values, alpha 0. The display applies
+// Colours of a data AOV (is_data()) that the frame must have: width * height * 4 linear values, alpha 0. The display applies
 // only the sRGB curve. Albedo is unchanged; normals are n / 2 + 1 / 2; depth is black at the nearest and white at the furthest
 // hit, blue where nothing is hit; ids have fixed colours that do not change between frames; error and samples are heat maps.
 std::vector<float> aov_pixels(const Frame& frame, ImageView::Show show);
@@ -27,7 +27,7 @@ struct MapScale {
     std::string title, low, middle, high;
     Vec3 (*color)(float t) = nullptr; // display-encoded
 };
-// For depth, error and samples; nullopt for other passes.
+// For depth, error and samples; nullopt for other AOVs.
 std::optional<MapScale> map_scale(const Frame& frame, ImageView::Show show);
 
 } // namespace blush

@@ -27,7 +27,7 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     const bool has_bounces = frame && !frame->bounces.empty();
     const int bounces = has_bounces ? int(frame->bounces.size()) : default_bounce_planes;
     for (int k = 0; k < bounces; ++k)
-        list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
+        list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce AOVs: the render restarts"});
     return list;
 }
 

@@ -1,4 +1,4 @@
-// Which pass (AOV) the viewport shows, and the list of passes to choose from.
+// Which AOV the viewport shows, and the list of AOVs to choose from.
 #pragma once
 
 #include "render/film/film_size.h"
@@ -19,12 +19,11 @@ struct AovView {
 struct AovEntry {
     AovView view;
     std::string name;
-    std::string needs = {}; // why the pass is not available yet; empty: it is available
+    std::string needs = {}; // why the AOV is not available yet; empty: it is available
     bool possible = true;   // false: only the user can provide what is missing
 };
-// All passes: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
+// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
 // list has no groups.
-// list without groups.
 std::vector<AovEntry> aov_list(const Frame* frame);
 // Its name in the list.
 std::string name_of(const AovView& view, const Frame* frame);

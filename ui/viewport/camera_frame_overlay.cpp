@@ -38,7 +38,7 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& image
     const Node* camera = c.scene().nodes.find(c.ui.home.camera);
     const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press),
                                          camera && !camera->name.empty() ? camera->name : "camera");
-    // Beside the list of passes.
+    // Beside the list of AOVs.
     const float em = ImGui::GetFontSize(), room = std::max(seen.width - 13 * em, 6 * em);
     const ImVec2 at{seen.x + em * 0.5f, seen.y + em * 0.75f}, size = draw_label(draw, text, at, room, tone::dim_text);
     c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});

@@ -1,4 +1,4 @@
-// How the viewport shows the bounce passes: one bounce, all up to one, direct or indirect light, with a gain each, or in a loop.
+// How the viewport shows the bounce AOVs: one bounce, all up to one, direct or indirect light, with a gain each, or in a loop.
 #pragma once
 
 #include "ui/snapshots/image_view.h"

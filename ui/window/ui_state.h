@@ -164,7 +164,7 @@ struct UiState {
     MenuBarView menu_bar;
     LightMixView light_mix;
     BouncesView bounces;
-    AovView aov; // the pass selected in the viewport's toolbar
+    AovView aov; // the AOV selected in the viewport's toolbar
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;

@@ -372,7 +372,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     add_render_options(*sub, command->options);
     sub->add_option(
            "--layers", command->layers,
-           "Additional passes, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
+           "Additional layers, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");

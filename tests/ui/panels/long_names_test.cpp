@@ -336,7 +336,7 @@ TEST_F(LongNames, ViewportOverlays) {
             draw_aov_bar(c, seen);
             draw_map_scale(draw, seen, *frame, {ImageView::Show::depth});
         };
-        expect_all_readable("passes, map scale and free view");
+        expect_all_readable("AOVs, map scale and free view");
         overlay = [&](PanelContext& c, ImDrawList& draw, const ImageRect& seen) {
             const Projection towards_meter({.position = {0, 0, 4}}, double(seen.width) / seen.height);
             draw_meters(draw, seen, towards_meter, c.scene(), {.meters = {{long_name("Meter"), {}, {}, {0, 0, 1}, 1}}}, c.ui.meters);

@@ -125,7 +125,7 @@ Vec3 shown_at(const Frame& f, const ImageView& view, size_t pixel) {
 }
 float encoded(float linear) { return srgb_from_linear(linear); }
 
-TEST(AovView, DataPassesAreDisplayValues) {
+TEST(AovView, DataAovsAreDisplayValues) {
     const Frame f = frame_with_planes();
     EXPECT_EQ(shown_at(f, {Show::albedo}, 0), (Vec3{0.2f, 0.4f, 0.6f}));
     const Vec3 normal = shown_at(f, {Show::normal}, 1);
@@ -172,7 +172,7 @@ TEST(AovView, MapsErrorAndSamplesWithAScale) {
     EXPECT_FALSE(map_scale(f, Show::albedo));
 }
 
-TEST(AovView, ListsPassesAndWhatTheyNeed) {
+TEST(AovView, ListsAovsAndWhatTheyNeed) {
     const Frame f = frame_with_planes();
     const auto find = [](const std::vector<AovEntry>& list, const AovView& v) { return *std::ranges::find(list, v, &AovEntry::view); };
     const Frame bounced = frame_with_bounces();
