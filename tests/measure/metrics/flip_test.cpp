@@ -1,6 +1,6 @@
 // FLIP against a second implementation: the papers' formulas in double, with full two-dimensional kernels, no separation, no threads.
 #include "measure/metrics/flip.h"
-#include "tests/measure/images.h"
+#include "tests/measure/metrics/images.h"
 
 #include <gtest/gtest.h>
 

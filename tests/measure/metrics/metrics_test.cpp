@@ -1,5 +1,5 @@
 #include "measure/metrics/metrics.h"
-#include "tests/measure/images.h"
+#include "tests/measure/metrics/images.h"
 
 #include <gtest/gtest.h>
 
