@@ -23,10 +23,10 @@ struct PanelContext {
     SessionStatus status;
     // Resolution of the full-size image.
     int render_width = 0, render_height = 0;
-    DenoisedPtr denoised = {};                    // of the frame's image; null: none
-    std::string denoiser_problem = {};            // why denoising is not possible; empty: it is possible
-    const FeatureReport* window_ledger = nullptr; // features of the window itself; null: none
-    const Mixing* mixing = nullptr;               // gains that turn the frame's light groups into the current scene's image; null: none
+    DenoisedPtr denoised = {};                      // of the frame's image; null: none
+    std::string denoiser_problem = {};              // why denoising is not possible; empty: it is possible
+    const FeatureReport* window_features = nullptr; // features of the window itself; null: none
+    const Mixing* mixing = nullptr;                 // gains that turn the frame's light groups into the current scene's image; null: none
 
     float metered_ev = 0;                                                    // result of auto exposure for the frame; 0 if it is off
     WaveformTextures waveforms = {};                                         // of the scopes

@@ -92,8 +92,8 @@ private:
     EditorSaving saving_;
     DesktopFileDialog desktop_file_dialog_{&Window::wake};
     bool leaving_ = false;
-    EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> go_on) {
-                                   saving_.before_losing_edits("opening another scene", std::move(go_on));
+    EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> then) {
+                                   saving_.before_losing_edits("opening another scene", std::move(then));
                                }};
     ThumbnailSheet thumbnails_;
     WaveformSheet waveforms_;
@@ -111,10 +111,10 @@ private:
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
     uint64_t last_revision_ = 0;
     uint64_t last_preview_ = 0; // revision of the last scene shown without textures; 0: none
-    bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
+    bool session_paused_ = false, session_denoises_ = false, session_yields_ = false;
     bool remembered_follow_viewport_ = true; // the saved setting, before the command line
     Layout layout_;                          // of the last UI frame
-    bool instruments_recalled_ = false;
+    bool instruments_restored_ = false;
     ImageRect image_;
     enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until an image in full resolution exists
     Clock::time_point frame_begin_{};
@@ -169,7 +169,7 @@ void Editor::run() {
         submit();
         draw();
     }
-    if (!shows_preview()) opening_page_.keep_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
+    if (!shows_preview()) opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
     saving_.end();
     snapshots_.finish_all();
     remember();
@@ -187,7 +187,7 @@ void Editor::poll() {
             messages_.opened();
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.load_strip(ui_, files_.scene_file());
-            if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
+            if (!std::exchange(instruments_restored_, true)) restore_instruments(context(), files_.scene_file().string());
         }
         window_->request_frames(2);
     }
@@ -195,12 +195,12 @@ void Editor::poll() {
     if (window_->close_requested()) {
         window_->cancel_close();
         window_->request_frames(2);
-        if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
+        if (!ui_.dialog) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
     for (const auto& file : window_->take_dropped_files()) takers().dispatch_dropped(file);
     // While text is edited or a popup is open, it receives the keys. Esc closes menus and combo boxes; dialogs handle it
     // themselves.
-    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.dialog, menu = any_popup_open();
     const bool flying = ImGui::IsMouseDown(ImGuiMouseButton_Right); // letters are then navigation keys instead of commands
     for (const KeyPress& press : window_->take_key_presses()) {
         if (ui_.transform.takes_keys()) {
@@ -241,7 +241,7 @@ void Editor::panels() {
     const ViewSettings view = document_shown().project().view;
     settle(ui_.frame, view, document_shown().project().scene, ui_.home.camera);
     display_.update_shader(view, images_.frame, viewport_, thumbnails_, ui_.toasts);
-    display_.update_ledger(session_.status());
+    display_.update_feature_report(session_.status());
     display_.meter(view.auto_exposure, images_.frame);
     window_->set_text_size(ui_.settings.text_size);
     window_->begin_frame();
@@ -297,7 +297,7 @@ void Editor::draw_on_top(PanelContext& c) {
     const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
     if (job) ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, 0.1);
     if (draw_cards(c, layout_.viewport, job) && opening) files_.cancel();
-    draw_question(c);
+    draw_modal_dialog(c);
 }
 
 // Executes requests of panels, menus and keys.
@@ -320,7 +320,7 @@ void Editor::handle_requests(PanelContext& c) {
     const bool paused = ui_.paused || convergence_.is_rendering_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
     // While a mix is edited, only its drawing matters.
-    if (session_aside_ != viewport_.is_thinned()) session_.yield_to_ui(session_aside_ = viewport_.is_thinned());
+    if (session_yields_ != viewport_.is_subsampled()) session_.yield_to_ui(session_yields_ = viewport_.is_subsampled());
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
     if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
     const ImageMix mix = mix_of(ui_.denoise, images_.denoised != nullptr);
@@ -419,7 +419,7 @@ void Editor::latest() {
     if (images_.frame && images_.frame->revision == submitted_revision() && !files_.preview()) {
         metering_.update(document_, images_.frame, ui_, color_);
         messages_.update(*images_.frame, document_.project().scene, ui_.toasts);
-        opening_page_.keep_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_);
+        opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_);
     }
     messages_.update(session_.status(), ui_);
 }
@@ -436,7 +436,7 @@ void Editor::draw() {
         state.height = shown->height;
         state.samples = shown->samples;
         state.complete = shown->complete;
-        state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
+        state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_subsampled();
         state.shown = shown->revision <= last_preview_ ? "without textures" : shown_text(ui_.denoise, *shown, images_.denoised.get());
     }
     const bool drawn = window_->end_frame();

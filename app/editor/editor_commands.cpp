@@ -55,20 +55,20 @@ template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::
 }
 
 // The surface under the mouse, if it is over an object in the image; else the subject's centre.
-LightSpot spot_for_new_light(PanelContext& c) {
+LightPlacement placement_of_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
         const Projection projection(view, double(c.frame->width) / c.frame->height);
         if (const auto surface = surface_at_pixel(*c.frame, projection, cursor->u, cursor->v))
-            return spot_over_surface(c.scene(), view, *surface);
+            return placement_above_surface(c.scene(), view, *surface);
     }
     const Bounds selected = bounds_of_meshes(c.scene(), c.ui.selection(c.scene()));
-    return spot_round_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
+    return placement_around_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
 }
 
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
-    if (c.apply(new_light(kind, c.scene().view, spot_for_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
+    if (c.apply(new_light(kind, c.scene().view, placement_of_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
 }
 
 void add_ground(PanelContext& c, bool catches_shadows) {

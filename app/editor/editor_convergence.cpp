@@ -113,7 +113,7 @@ void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
     }
     if (reference_provider_.poll() && frame) measuring_.add_raw(frame);
     measuring_.poll(view.runs, view.reference ? reference_provider_.reference() : nullptr, frame);
-    view.news = reference_provider_.news();
+    view.reference_status = reference_provider_.status();
     view.waiting = live ? measuring_.waiting(live->record) : 0;
 }
 

@@ -32,7 +32,7 @@ void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
     metered_ev_ = metered_ ? metered_exposure(rule, metered_->rgba, 4) : 0;
 }
 
-void EditorDisplay::update_ledger(const SessionStatus& status) {
+void EditorDisplay::update_feature_report(const SessionStatus& status) {
     if (!feature_report_.empty() && status.denoised_with == denoised_with_) return;
     denoised_with_ = status.denoised_with;
     feature_report_ = denoiser_feature_report(weights_, denoised_with_);

@@ -15,7 +15,7 @@ namespace blush {
 class EditorMessages {
 public:
     // A file was opened: the next images also tell whether the camera sees any object.
-    void opened() { looks_for_objects_ = true; }
+    void opened() { checks_visible_objects_ = true; }
     // For each frame of the current document.
     void update(const Frame& frame, const Scene& scene, Toasts& toasts);
     // Shows the raw image if it cannot be denoised.
@@ -23,7 +23,7 @@ public:
 
 private:
     std::shared_ptr<const std::vector<Diagnostic>> known_;
-    bool looks_for_objects_ = false;
+    bool checks_visible_objects_ = false;
     std::string last_not_continued_;
 };
 

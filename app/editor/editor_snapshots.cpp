@@ -88,8 +88,8 @@ bool EditorSnapshots::will_be_written(uint64_t id) const {
     return (writing_ && writing_id_ == id) || std::ranges::count(to_write_, id, &Writing::id) > 0;
 }
 
-void EditorSnapshots::make_room(UiState& ui) {
-    for (const SnapshotPtr& snapshot : store_.make_room(ui))
+void EditorSnapshots::free_memory(UiState& ui) {
+    for (const SnapshotPtr& snapshot : store_.free_memory(ui))
         if (!will_be_written(snapshot->id)) write(snapshot, ui, Why::room);
 }
 
@@ -176,7 +176,7 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!result) return;
     opening_.reset();
     if (!restores_opened_) {
-        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->let_go();
+        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->unload();
         return;
     }
     if (!*result) return ui.toasts.fail(result->error().text());
@@ -227,11 +227,11 @@ void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, U
         });
     }
     waiting_ = snapshot;
-    go_on(document, ui, files);
+    continue_restore(document, ui, files);
 }
 
 // Continues a restore: its scene is open.
-void EditorSnapshots::go_on(Document& document, UiState& ui, const EditorFiles& files) {
+void EditorSnapshots::continue_restore(Document& document, UiState& ui, const EditorFiles& files) {
     if (stateless_.contains(waiting_->id)) return compute_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
 }
@@ -309,10 +309,10 @@ void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorF
     finish_opening(document, ui, files);
     finish_state(document, ui);
     store_.poll(ui);
-    make_room(ui);
+    free_memory(ui);
     if (!waiting_ || state_job_) return;
     if (opened && same_file(waiting_->scene_file, files.scene_file()))
-        go_on(document, ui, files);
+        continue_restore(document, ui, files);
     else if (!files.running())
         waiting_.reset(); // its scene could not be read; a toast has reported it
 }

@@ -74,11 +74,11 @@ private:
     enum class Why { asked, renamed, room };
     void write(const SnapshotPtr& snapshot, const UiState& ui, Why why);
     bool will_be_written(uint64_t id) const;
-    void make_room(UiState& ui);
+    void free_memory(UiState& ui);
     void read_next(const std::filesystem::path& open_scene);
     SnapshotPtr add_to_strip(OpenedSnapshot opened, UiState& ui);
     void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
-    void go_on(Document& document, UiState& ui, const EditorFiles& files);
+    void continue_restore(Document& document, UiState& ui, const EditorFiles& files);
     void compute_state(const EditorFiles& files);
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 

@@ -35,7 +35,7 @@ public:
     bool poll();
     bool renders() const { return job_ && rendering_ && !outdated_; }
     const std::shared_ptr<const Reference>& reference() const { return reference_; } // null: none
-    ReferenceStatus news() const;
+    ReferenceStatus status() const;
 
 private:
     struct Found {

@@ -20,7 +20,7 @@ public:
     bool has(const SnapshotPtr& snapshot);
     // Unloads snapshots above the memory limit that are saved, and returns those that must be saved first. If the user has
     // disabled samples in files, they are dropped with a message.
-    std::vector<SnapshotPtr> make_room(UiState& ui);
+    std::vector<SnapshotPtr> free_memory(UiState& ui);
     // Applies finished reads.
     void poll(UiState& ui);
     // The file being read; null: none.

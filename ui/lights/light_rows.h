@@ -21,7 +21,7 @@ struct LightRow {
     float intensity = 0; // in `unit`; for a material its emissive strength, for an image or sky its multiplier
     const char* unit = "";
     bool on = true, solo = false;
-    bool shines = true; // not muted
+    bool enabled = true; // not muted
 };
 struct LightRows {
     std::string group; // "": ungrouped; these rows come last

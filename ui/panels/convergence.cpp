@@ -79,7 +79,7 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
 void draw_reference(PanelContext& c, ConvergenceView& view) {
     using State = ReferenceStatus::State;
     if (!view.reference) return;
-    const ReferenceStatus& news = view.news;
+    const ReferenceStatus& news = view.reference_status;
     std::string text;
     const char* button = nullptr;
     switch (news.state) {

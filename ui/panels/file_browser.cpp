@@ -41,7 +41,7 @@ void finish(PanelContext& c, const std::filesystem::path& path) {
 void take_typed(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
-    const std::filesystem::path path = meant_path(b.typed, b.folder);
+    const std::filesystem::path path = absolute_path(b.typed, b.folder);
     if (std::filesystem::is_directory(path, unreadable))
         enter(b, path);
     else if (b.use == Use::save_scene && std::filesystem::is_directory(path.parent_path(), unreadable))
@@ -90,7 +90,7 @@ bool enter_opens_chosen(const FileBrowser& b) {
 // Tab completes the path.
 int complete(ImGuiInputTextCallbackData* data) {
     const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
-    const std::string completed = completed_path(meant_path({data->Buf, size_t(data->BufTextLen)}, b.folder).string(), filter_of(b.use));
+    const std::string completed = completed_path(absolute_path({data->Buf, size_t(data->BufTextLen)}, b.folder).string(), filter_of(b.use));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, completed.c_str());
     return 0;
@@ -225,7 +225,7 @@ void draw_buttons(PanelContext& c) {
     ImGui::SameLine();
     if (b.use == Use::save_scene) {
         std::error_code unreadable;
-        if (ImGui::Button(std::filesystem::is_regular_file(meant_path(b.typed, b.folder), unreadable) ? "Replace" : "Save", {width, 0}))
+        if (ImGui::Button(std::filesystem::is_regular_file(absolute_path(b.typed, b.folder), unreadable) ? "Replace" : "Save", {width, 0}))
             take_typed(c);
     } else {
         const bool folder = b.use == Use::snapshot_folder;

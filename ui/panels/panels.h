@@ -61,7 +61,7 @@ void follow_meters(PanelContext& c);
 void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_pixel_popup(PanelContext& c); // replaces the panel while panels are hidden
-void draw_question(PanelContext& c);
+void draw_modal_dialog(PanelContext& c);
 void draw_start_page(PanelContext& c); // also an instrument
 // At the upper edge of the viewport, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& viewport);

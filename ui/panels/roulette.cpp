@@ -120,8 +120,8 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.25);
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
-    if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");
-    draw_roulette_report(c, state.answer);
+    if (state.output.rounds == 0) return quiet_text("The first round is being rendered.");
+    draw_roulette_report(c, state.output);
 }
 
 } // namespace

@@ -71,7 +71,7 @@ bool draw_job(PanelContext& c, const RunningJob& job, float right, float width, 
 
 void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
     const auto now = std::chrono::steady_clock::now();
-    c.ui.toasts.expire(now);
+    c.ui.toasts.remove_expired(now);
     std::optional<size_t> dismissed;
     const std::vector<Toast>& toasts = c.ui.toasts.all();
     for (size_t i = toasts.size(); i-- > 0;) {

@@ -15,8 +15,8 @@ using Mode = Comparison::Mode;
 
 constexpr double default_frame = 16; // milliseconds per window frame, as for the live image
 
-std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
-    return std::make_shared<const Difference>(difference_of(question));
+std::shared_ptr<const Difference> compute_difference(const DifferenceInput& input) {
+    return std::make_shared<const Difference>(difference_of(input));
 }
 
 ImageMix mix_of_side(const PanelContext& c, const ComparedSide& side) { return mix_of(c.ui.denoise, side.images.denoised != nullptr); }
@@ -75,12 +75,12 @@ void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const C
     const Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode != Mode::difference) return;
     const bool denoised = c.ui.denoise.wants_denoised();
-    const DifferenceQuestion question{
+    const DifferenceInput input{
         a.images.frame, b.images.frame, denoised ? a.images.denoised : nullptr, denoised ? b.images.denoised : nullptr,
         c.ui.denoise,   compare.kind};
-    if (difference_.ask(question, answer)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
-    if (difference_.answer()) answer_ = *difference_.answer();
-    c.ui.difference = answer_;
+    if (difference_.update(input, compute_difference)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
+    if (difference_.output()) result_ = *difference_.output();
+    c.ui.difference = result_;
 }
 
 // Uploads the sides that are not live, one above the other.
@@ -125,7 +125,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     const bool difference = compare.mode == Mode::difference;
     Shown wanted{difference ? Mode::difference : Mode::wipe, {}, {}, {}, {}, nullptr};
     if (difference) {
-        wanted.difference = answer_.get();
+        wanted.difference = result_.get();
     } else {
         if (a.id != live_image) wanted.a = a.images.frame, wanted.mix_a = mix_of_side(c, a);
         if (b.id != live_image) wanted.b = b.images.frame, wanted.mix_b = mix_of_side(c, b);
@@ -136,8 +136,8 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     const bool other_image = !pass_.busy() && shown_ != wanted;
     if (other_image) {
         shown_ = wanted;
-        if (difference && answer_ && answer_->problem.empty())
-            pass_.upload(answer_->width, answer_->height, answer_->rgba);
+        if (difference && result_ && result_->problem.empty())
+            pass_.upload(result_->width, result_->height, result_->rgba);
         else if (!difference)
             upload_sides(c, a, b);
         drawn_ = false;
@@ -203,7 +203,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
         left_name_ = (compare.shows_b ? "B   " : "A   ") + side.label;
         return;
     }
-    if (compare.mode != Mode::difference || !answer_ || !answer_->problem.empty() || !drawn_) return;
+    if (compare.mode != Mode::difference || !result_ || !result_->problem.empty() || !drawn_) return;
     draw_part({pass_.texture()}, image, seen);
     left_name_ = std::string("A - B   ") + caption_of(compare.kind);
 }

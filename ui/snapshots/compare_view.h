@@ -61,8 +61,8 @@ private:
     } shown_;
     Part parts_[2];
     std::string left_name_, right_name_; // right: of a wipe
-    AsyncQuery<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
-    std::shared_ptr<const Difference> answer_;
+    AsyncQuery<DifferenceInput, std::shared_ptr<const Difference>> difference_;
+    std::shared_ptr<const Difference> result_;
 };
 
 } // namespace blush

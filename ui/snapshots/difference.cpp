@@ -32,7 +32,7 @@ void paint(Difference& d, const RgbImage& a, const RgbImage& b) {
     for (size_t i = 0; i < a.pixels.size(); ++i) {
         const Vec3 c = d.kind == DifferenceKind::absolute
                            ? distance(a.pixels[i], b.pixels[i])
-                           : heat(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
+                           : heat_map_color(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
         d.rgba[4 * i] = c.x;
         d.rgba[4 * i + 1] = c.y;
         d.rgba[4 * i + 2] = c.z;
@@ -41,7 +41,7 @@ void paint(Difference& d, const RgbImage& a, const RgbImage& b) {
 
 } // namespace
 
-Difference difference_of(const DifferenceQuestion& q) {
+Difference difference_of(const DifferenceInput& q) {
     Difference d{.kind = q.kind};
     const Frame &a = *q.a, &b = *q.b;
     if (a.width != b.width || a.height != b.height) {

@@ -102,7 +102,7 @@ std::vector<float> pixels_of(const Frame& frame, const ImageView& view) {
     for (size_t i = 0; i < rgba.size() / 4; ++i) {
         const Vec3 c = view.show == Show::bounces ? mixed(frame, view.gains, i)
                        : view.show == Show::group ? group_pixel(frame, size_t(view.group), i)
-                                                  : heat((value_at(frame, view.show, i) - range.low) / (range.high - range.low));
+                                                  : heat_map_color((value_at(frame, view.show, i) - range.low) / (range.high - range.low));
         rgba[4 * i] = c.x;
         rgba[4 * i + 1] = c.y;
         rgba[4 * i + 2] = c.z;

@@ -39,7 +39,7 @@ size_t bytes_of(const std::vector<SnapshotPtr>& list) {
     return sum;
 }
 
-std::vector<SnapshotPtr> beyond_memory(const SnapshotsView& view, size_t limit) {
+std::vector<SnapshotPtr> snapshots_to_unload(const SnapshotsView& view, size_t limit) {
     size_t sum = bytes_of(view.list);
     std::vector<SnapshotPtr> by_use = view.list, leaving;
     std::ranges::sort(by_use, {}, &Snapshot::last_used);

@@ -14,6 +14,6 @@ size_t bytes_of(const std::vector<SnapshotPtr>& list);
 
 // The snapshots to unload so that the rest uses at most `limit` bytes: least recently used first; never pinned, compared or the
 // most recently used ones.
-std::vector<SnapshotPtr> beyond_memory(const SnapshotsView& view, size_t limit);
+std::vector<SnapshotPtr> snapshots_to_unload(const SnapshotsView& view, size_t limit);
 
 } // namespace blush

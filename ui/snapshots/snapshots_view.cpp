@@ -43,7 +43,7 @@ std::string Snapshot::figures() const {
     return fmt::format("{} spp{}, {}", f.samples, relative_error, time);
 }
 
-void Snapshot::let_go() {
+void Snapshot::unload() {
     last_figures_ = figures();
     images = {};
     error = {};
@@ -67,7 +67,7 @@ uint64_t SnapshotsView::add(Snapshot snapshot) {
 void SnapshotsView::remove(uint64_t id) {
     removed_ = find(id);
     std::erase(list, removed_);
-    if (removed_ && !removed_->file.empty() && (!removed_->film || removed_->film_in_file)) removed_->let_go();
+    if (removed_ && !removed_->file.empty() && (!removed_->film || removed_->film_in_file)) removed_->unload();
     if (compare.a == id || compare.b == id) compare = {.kind = compare.kind};
     if (details == id) details = 0;
 }

@@ -53,7 +53,7 @@ struct Snapshot {
     void choose_layer(size_t index);
     std::string figures() const; // "64 spp, 1.2 %, 14:32"
     // Replaces images and samples by those of its file.
-    void let_go();
+    void unload();
 
 private:
     std::string last_figures_; // used while the images are unloaded

@@ -191,7 +191,8 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     }
 }
 
-std::optional<LightInView> Handles::sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const {
+std::optional<LightInView> Handles::light_in_view(const Scene& scene, Id<Node> id, const Projection& projection,
+                                                  const ImageRect& image) const {
     const Light* light = light_of(scene, scene.nodes.find(id));
     const Affined m = world_from_node(scene, id);
     const auto seen = projection.project(m.t);
@@ -235,7 +236,7 @@ bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projec
         aim_distance_ = std::max(length(pivot(c.scene().view) - world_from_node(c.scene(), aimed_).t), 1e-3);
     }
     if (dragged_ != Handle::none) drag(c, projection, image);
-    const auto seen = sight(c.scene(), c.ui.selected, projection, image);
+    const auto seen = light_in_view(c.scene(), c.ui.selected, projection, image);
     const std::vector<HandleShape> handles = shapes(c, targets, anchor(c.scene(), targets), projection, image, seen);
 
     const ImVec2 mouse = ImGui::GetIO().MousePos;

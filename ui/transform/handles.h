@@ -26,7 +26,7 @@ private:
                                     const Projection& projection, const ImageRect& image, const std::optional<LightInView>& seen) const;
     void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
     void aim(PanelContext& c, const Projection& projection, double u, double v);
-    std::optional<LightInView> sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
+    std::optional<LightInView> light_in_view(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
 
     // The centre of a node's mesh in local space. The key is the node and the first part of its mesh, because after a reload the
     // same id may have another mesh.

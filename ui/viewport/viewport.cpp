@@ -51,12 +51,12 @@ ImageRect visible_part(const ImageRect& image) {
     return {left, top, std::min(image.x + image.width, r.x + r.width) - left, std::min(image.y + image.height, r.y + r.height) - top};
 }
 
-void zoom_image(PanelContext& c, const NavigationResult& wish) {
+void zoom_image(PanelContext& c, const NavigationResult& input) {
     const Region region = window_region();
     const int width = std::max(c.render_width, 1), height = std::max(c.render_height, 1);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    if (wish.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, wish.zoom);
-    if (wish.shift_x != 0 || wish.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, wish.shift_x, wish.shift_y);
+    if (input.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, input.zoom);
+    if (input.shift_x != 0 || input.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, input.shift_x, input.shift_y);
 }
 
 void draw_centred(const char* text) {
@@ -153,7 +153,7 @@ void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) 
     display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
 }
 
-void Viewport::upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step) {
+void Viewport::upload_subsampled(const MixPreviewSource& moved, const Gains& gains, int step) {
     const MixPreview::Preview raw = preview_.raw(moved, gains, step);
     display_.upload(raw.width, raw.height, raw.values);
     if (!moved.shows_denoised) return;
@@ -216,7 +216,7 @@ ImageInputs Viewport::image_inputs(const PanelContext& c, const WantedImage& w, 
 
 void Viewport::upload(const PanelContext& c, const WantedImage& w, const ImageStep& step) {
     if (step.preview_step > 1)
-        upload_thinned(w.source, w.gains, step.preview_step);
+        upload_subsampled(w.source, w.gains, step.preview_step);
     else if (step.takes_frame)
         upload_frame(c.frame, w.view, w.gains, w.look.numbers.background_as_it_is);
     if (step.takes_denoised && step.preview_step == 1) upload_denoised(c.denoised, w.gains);
@@ -328,33 +328,34 @@ void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const
     write_caption(image, caption_of(*shown_frame_, uploaded_view_));
 }
 
-void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
-    if (wish.view) {
+void Viewport::handle_requests(PanelContext& c, const NavigationResult& input, const Projection& projection, const ImageRect& image) {
+    if (input.view) {
         const bool was_home = is_at_home(c.scene(), c.ui.home);
-        c.document.navigate(*wish.view);
+        c.document.navigate(*input.view);
         move_light_to_view(c);
         if (was_home) move_camera_to_view(c);
     }
-    if (wish.begins_exposure) {
+    if (input.begins_exposure) {
         exposure_gesture_ = c.ui.gestures.begin();
         c.ui.gestures.end();
     }
-    if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
-    zoom_image(c, wish);
-    if (wish.turned != 0) turn_surroundings(c, wish.turned);
-    if (wish.flying) c.ui.seconds_to_next_frame = 0;
-    if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
-    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
-    if (wish.select) {
-        const Picked picked = picked_at(c, projection, image, *wish.select);
+    if (input.brighter != 0) expose(c, input.brighter, exposure_gesture_);
+    zoom_image(c, input);
+    if (input.turned != 0) turn_surroundings(c, input.turned);
+    if (input.flying) c.ui.seconds_to_next_frame = 0;
+    if (input.focus) focus_at(c, projection, image.u(input.focus->x), image.v(input.focus->y));
+    if (input.inspect && image.contains(input.inspect->x, input.inspect->y))
+        inspect(c, image.u(input.inspect->x), image.v(input.inspect->y));
+    if (input.select) {
+        const Picked picked = picked_at(c, projection, image, *input.select);
         c.ui.select(picked.node, picked.material);
     }
-    if (wish.toggle) {
-        const Picked picked = picked_at(c, projection, image, *wish.toggle);
+    if (input.toggle) {
+        const Picked picked = picked_at(c, projection, image, *input.toggle);
         if (picked.node && !toggle_link(c, picked.node, &Light::lit_objects)) c.ui.toggle(picked.node);
     }
-    if (wish.toggle_shadow) {
-        const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
+    if (input.toggle_shadow) {
+        const Picked picked = picked_at(c, projection, image, *input.toggle_shadow);
         if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters))
             c.ui.toasts.note("Select a light first, to edit its shadow linking");
     }
@@ -375,7 +376,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
         region_backdrop_.forget();
     }
     if (!shown_frame_) {
-        transformer_.abandon(c);
+        transformer_.cancel(c);
         using State = SessionStatus::State;
         const bool nothing_open = (c.status.state == State::idle || c.status.state == State::complete) && c.scene().nodes.empty();
         draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
@@ -413,7 +414,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
 }
 
 ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption) {
-    transformer_.abandon(c);
+    transformer_.cancel(c);
     take_frame(c, pace);
     const ImageRect image = viewport_image_rect(c);
     if (!shown_frame_) {
@@ -447,9 +448,9 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
 }
 
 void Viewport::navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle) {
-    const NavigationResult wish = navigation_.update(c.scene().view, image, hovered, !on_handle);
+    const NavigationResult input = navigation_.update(c.scene().view, image, hovered, !on_handle);
     if (navigation_.busy() && !navigating_) c.ui.gestures.begin();
-    handle_requests(c, wish, projection, image);
+    handle_requests(c, input, projection, image);
     if (!navigation_.busy() && navigating_) c.ui.gestures.end();
     navigating_ = navigation_.busy();
 }

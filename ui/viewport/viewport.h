@@ -38,7 +38,7 @@ public:
     // True while an image is drawn, over several UI frames if it is large.
     bool draws_image() const { return display_.busy(); }
     // True if it temporarily shows a lower resolution, while a light mix is edited.
-    bool is_thinned() const { return is_preview(state_) || shows_preview_; }
+    bool is_subsampled() const { return is_preview(state_) || shows_preview_; }
 
 private:
     struct WantedImage;
@@ -48,7 +48,7 @@ private:
     void take_frame(PanelContext& c, const FrameBudget& pace);
     void upload_frame(const FramePtr& shown, const ImageView& view, const Gains& gains, bool background_as_it_is);
     void upload_denoised(const DenoisedPtr& denoised, const Gains& gains);
-    void upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step);
+    void upload_subsampled(const MixPreviewSource& moved, const Gains& gains, int step);
     void draw_texture(const ImageRect& image, const std::optional<ImageRect>& frame) const;
     void draw_image(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame);
     void draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace);
@@ -56,7 +56,7 @@ private:
     void draw_caption(const PanelContext& c, const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
     void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
-    void handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image);
+    void handle_requests(PanelContext& c, const NavigationResult& input, const Projection& projection, const ImageRect& image);
 
     DisplayPass display_;
     OutlinePass outline_;

@@ -45,7 +45,7 @@ struct ConvergenceView {
     // Updated by the editor.
     ConvergenceRuns runs;
     RecorderCost cost;
-    ReferenceStatus news;
+    ReferenceStatus reference_status;
     size_t waiting = 0; // number of denoised images whose error is not known yet
 
     // Executed by the editor after the panels are drawn.

@@ -41,8 +41,8 @@ bool MixPreview::is_kept(const Kept& kept, const std::shared_ptr<const void>& of
     return kept.step == step && kept.of.lock() == of;
 }
 
-void MixPreview::thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height,
-                      int step) {
+void MixPreview::subsample(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height,
+                           int step) {
     if (is_kept(kept, of, step)) return;
     const auto begin = Clock::now();
     kept.planes = subsampled(planes, width, height, step);
@@ -64,7 +64,7 @@ MixPreview::Preview MixPreview::raw(const MixPreviewSource& moved, const Gains& 
     const size_t pixels = size_t(width) * size_t(height);
     std::vector<float>& rgba = room(raw_.rgba, 4 * pixels, 1.f);
     if (moved.shows_raw) {
-        thin(raw_, moved.frame, planes_of(frame), frame.width, frame.height, step);
+        subsample(raw_, moved.frame, planes_of(frame), frame.width, frame.height, step);
         raw_.mixed.resize(3 * pixels);
         mix(raw_, gains, raw_.mixed);
         for (size_t i = 0; i < pixels; ++i) std::copy_n(&raw_.mixed[3 * i], 3, &rgba[4 * i]);
@@ -74,7 +74,7 @@ MixPreview::Preview MixPreview::raw(const MixPreviewSource& moved, const Gains& 
 
 MixPreview::Preview MixPreview::denoised(const MixPreviewSource& moved, const Gains& gains, int step) {
     const DenoisedImage& image = *moved.denoised;
-    thin(denoised_, moved.denoised, planes_of(image), image.width, image.height, step);
+    subsample(denoised_, moved.denoised, planes_of(image), image.width, image.height, step);
     const int width = denoised_.planes.width, height = denoised_.planes.height;
     mix(denoised_, gains, room(denoised_.rgb, 3 * size_t(width) * size_t(height), 0.f));
     return {width, height, denoised_.rgb};

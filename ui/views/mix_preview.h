@@ -47,7 +47,8 @@ private:
         std::shared_ptr<std::vector<float>> rgba = {}, rgb = {};
     };
     bool is_kept(const Kept& kept, const std::shared_ptr<const void>& of, int step) const;
-    void thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height, int step);
+    void subsample(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height,
+                   int step);
     void mix(const Kept& kept, const Gains& gains, std::vector<float>& rgb);
 
     Kept raw_, denoised_;

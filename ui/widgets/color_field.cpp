@@ -26,7 +26,7 @@ void take_dropper(UiState& ui, unsigned field) {
 
 } // namespace
 
-bool Fields::obey_color_wish(const char* label, Vec3& value, const Vec3& reset) {
+bool Fields::apply_color_action(const char* label, Vec3& value, const Vec3& reset) {
     const unsigned id = ImGui::GetItemID();
     if (ui_.values.dropper == id && ui_.values.picked) {
         const Vec3 picked = *std::exchange(ui_.values.picked, std::nullopt);
@@ -92,7 +92,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
     ui_.probe.record_last_item(path);
     tip_for_last_item(ui_, tip);
     const unsigned id = ImGui::GetItemID();
-    bool changed = obey_color_wish(label, value, reset);
+    bool changed = apply_color_action(label, value, reset);
     changed_ |= changed;
     if (ImGui::BeginPopup("picker")) {
         changed |= draw_picker(label, value);
@@ -113,7 +113,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
         ImGui::SetNextItemWidth(field);
         const std::string name = std::string(label) + " " + (ids[i] + 2);
         bool edited = number_field(ids[i], *components[i], style);
-        edited |= obey_wish(name, *components[i], style, resets[i], &value, true);
+        edited |= apply_value_action(name, *components[i], style, resets[i], &value, true);
         changed |= finish(name.c_str(), tip, edited);
     }
     ImGui::PopID();

@@ -85,7 +85,7 @@ void restore_scene_ui(const WindowSettings& settings, const std::string& file, c
     ui.selected_material = {};
     ui.turned.clear();
     ui.light_mix.unfolded.clear();
-    ui.light_mix.stays_off = false;
+    ui.light_mix.disabled_by_user = false;
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)

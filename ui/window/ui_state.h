@@ -175,7 +175,7 @@ struct UiState {
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;
-    std::optional<Question> question; // set by the editor, which also receives the answer
+    std::optional<ModalDialog> dialog; // set by the editor, which also receives the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
     WhiteFields white;

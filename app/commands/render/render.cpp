@@ -292,7 +292,7 @@ Result<Rendered> render_image(const RenderCommand& c, const Plan& plan, const Lo
 }
 
 // Settings come from the image, stop rules from the command line.
-Result<void> go_on_with(const std::string& file, Plan& plan) {
+Result<void> resume_from(const std::string& file, Plan& plan) {
     Result<ResumeImage> begun = read_resume_image(file);
     if (!begun) return begun.error();
     const RenderSettings stop = std::exchange(plan.settings, begun->metadata.settings);
@@ -326,7 +326,7 @@ int run_render(RenderCommand c) {
     Result<Plan> plan = plan_of(c);
     if (!plan) return bad_usage(plan.error().text());
     if (!c.begun.empty())
-        if (const Result<void> begun = go_on_with(c.begun, *plan); !begun) return failed(begun.error());
+        if (const Result<void> begun = resume_from(c.begun, *plan); !begun) return failed(begun.error());
     if (!plan->pixel)
         if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
     const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? ImageFormat::exr : plan->format, c.options.view);

@@ -90,14 +90,14 @@ TEST(Continue, ErrorsNameTheReason) {
     };
     expect_done(with(tiny(folder / "plain.exr"), {"--spp", "2"}));
     expect_done(with(tiny(folder / "film.exr"), {"--spp", "2", "--layers", "film"}));
-    const auto go_on = [&](const std::string& scene, const std::string& file) {
+    const auto resume = [&](const std::string& scene, const std::string& file) {
         return Arguments{"render", scene_file(scene), "--continue", folder / file, "--spp", "4", "-o", folder / "out.exr", "--quiet"};
     };
-    fails(go_on("cornell", "plain.exr"), 1, "without the samples");
-    fails(go_on("furnace", "film.exr"), 1, "another scene");
-    fails(go_on("cornell", "nowhere.exr"), 1, "nowhere.exr");
-    fails(with(go_on("cornell", "film.exr"), {"--seed", "4"}), 2, "only --spp, --time and --error");
-    fails(with(go_on("cornell", "film.exr"), {"--layers", "albedo"}), 1, "lack the plane \"albedo.R\"");
+    fails(resume("cornell", "plain.exr"), 1, "without the samples");
+    fails(resume("furnace", "film.exr"), 1, "another scene");
+    fails(resume("cornell", "nowhere.exr"), 1, "nowhere.exr");
+    fails(with(resume("cornell", "film.exr"), {"--seed", "4"}), 2, "only --spp, --time and --error");
+    fails(with(resume("cornell", "film.exr"), {"--layers", "albedo"}), 1, "lack the plane \"albedo.R\"");
 }
 
 TEST(Merge, OfFilmStatesIsTheWholeRender) {

@@ -199,13 +199,13 @@ TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
     converge(1, 16);
     const FramePtr frame = frame_of(1, 32, 0.1);
     using State = ReferenceStatus::State;
-    ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.news.state == State::absent; }));
+    ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.reference_status.state == State::absent; }));
     view.wanted_reference = ConvergenceView::ReferenceRequest::render;
     editor.handle_requests(ui, {}, {});
     EXPECT_TRUE(editor.is_rendering_reference());
-    ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.news.state == State::there; }));
-    EXPECT_EQ(view.news.spp, 64);
-    EXPECT_EQ(view.news.problem, "");
+    ASSERT_TRUE(look_until({frame, nullptr}, [&] { return view.reference_status.state == State::there; }));
+    EXPECT_EQ(view.reference_status.spp, 64);
+    EXPECT_EQ(view.reference_status.problem, "");
     EXPECT_FALSE(editor.is_rendering_reference());
     ASSERT_TRUE(look_until({frame, nullptr}, [&] { return !view.runs.live()->record.points(Kind::measured).empty(); }));
     EXPECT_EQ(view.runs.live()->record.points(Kind::measured)[0].spp, 32);
@@ -213,9 +213,9 @@ TEST_F(Convergence, ReferenceIsRenderedStoredFoundAndUsed) {
     // The same image again, after another one.
     begin("edit", 2);
     editor.update(view, {frame_of(2, 1, 1), nullptr});
-    EXPECT_EQ(view.news.state, State::none) << "no search before the image has settled";
+    EXPECT_EQ(view.reference_status.state, State::none) << "no search before the image has settled";
     converge(2, 16);
-    EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.news.state == State::there; }));
+    EXPECT_TRUE(look_until({frame_of(2, 32, 0.1), nullptr}, [&] { return view.reference_status.state == State::there; }));
 }
 
 TEST_F(Convergence, SavesVisibleRunsAndLoadsThem) {

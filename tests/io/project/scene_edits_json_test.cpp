@@ -31,7 +31,7 @@ Scene with_imported_pixels(const Scene& imported, Scene now) {
     return now;
 }
 
-bool text_can_hold(const Edit& edit) {
+bool is_storable_as_text(const Edit& edit) {
     if (const auto* set = std::get_if<SetEnvironment>(&edit)) return set->environment.kind != Environment::Kind::image;
     return !std::holds_alternative<Import>(edit);
 }
@@ -51,7 +51,7 @@ TEST(SceneEdits, RandomEditsRoundTrip) {
         Project project = imported;
         for (int step = 0; step < 8; ++step) {
             const Edit edit = random_edit(rng, project);
-            if (text_can_hold(edit)) project = *blush::apply(project, edit);
+            if (is_storable_as_text(edit)) project = *blush::apply(project, edit);
         }
         const std::string text = edits_json(imported.scene, project.scene);
         const auto applied = apply_edits_json(imported.scene, text);

@@ -84,7 +84,7 @@ UpdatePlan moved_panel(Id<Node> body) {
     p.moved_area_lights = {body};
     return p;
 }
-UpdatePlan listed_anew() {
+UpdatePlan object_list_rebuilt() {
     UpdatePlan p = moved();
     p.objects = p.all_materials = true;
     return p;
@@ -110,8 +110,8 @@ TEST(UpdatePlan, EachChangeNeedsItsUpdatesOnly) {
     const Id<Node> body{expanded_id_bit | 1};
     EXPECT_EQ(plan_if([&](Changes& c) { c.transforms = {{1}}, c.moved_meshes = {body}; }), moved_panel(body));
     EXPECT_EQ(plan_if([&](Changes& c) { c.transforms = {{1}}, c.moved_meshes = {{2}, body}; }), moved()) << "not the panel alone";
-    EXPECT_EQ(plan_if([](Changes& c) { c.structure = {{1}}; }), listed_anew());
-    EXPECT_EQ(plan_if([](Changes& c) { c.meshes = {{1}}; }), listed_anew());
+    EXPECT_EQ(plan_if([](Changes& c) { c.structure = {{1}}; }), object_list_rebuilt());
+    EXPECT_EQ(plan_if([](Changes& c) { c.meshes = {{1}}; }), object_list_rebuilt());
     EXPECT_EQ(plan_if([](Changes& c) { c.materials = {{7}}; }), one_material(7));
     EXPECT_EQ(plan_if([](Changes& c) { c.textures = {{1}}; }), every_material());
     EXPECT_EQ(plan_if([](Changes& c) { c.lights = {{1}}; }), lights());
@@ -178,8 +178,8 @@ TEST_F(EditCost, SetNode) {
     EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.local.translation.x += 1; }), moved());
     EXPECT_EQ(cost_of_node(sample.root, [](Node& n) { n.local.scale = {2, 2, 2}; }), moved());
     EXPECT_EQ(cost_of_node(sample.mug, [&](Node& n) { n.parent = sample.table; }), moved());
-    EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.visible = false; }), listed_anew());
-    EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.mesh = {}; }), listed_anew());
+    EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.visible = false; }), object_list_rebuilt());
+    EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.mesh = {}; }), object_list_rebuilt());
     EXPECT_EQ(cost_of_node(sample.mug, [](Node& n) { n.name = "Cup"; }), nothing());
     EXPECT_EQ(cost_of_node(sample.lamp_node, [](Node& n) { n.local.translation.x += 1; }), lights()) << "no object moves";
 }
@@ -195,8 +195,8 @@ TEST_F(EditCost, SetLight) {
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.enabled = false; }), lights());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::sun; }), lights());
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.name = "Bulb"; }), nothing());
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::rectangle; }), listed_anew()) << "a mesh appears";
-    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.1f; }), listed_anew()) << "a mesh appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::rectangle; }), object_list_rebuilt()) << "a mesh appears";
+    EXPECT_EQ(cost_of_lamp([](Light& l) { l.kind = Light::Kind::disk, l.radius = 0.1f; }), object_list_rebuilt()) << "a mesh appears";
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.radius = 0.1f; }), lights()) << "a sphere is no mesh";
     EXPECT_EQ(cost_of_lamp([](Light& l) { l.unit = Light::Unit::lumen, l.keep_power = true; }), nothing()) << "display only";
 }
@@ -228,11 +228,11 @@ TEST_F(EditCost, SetTexture) {
 }
 
 TEST_F(EditCost, AssignMaterial) {
-    EXPECT_EQ(cost_of(AssignMaterial{sample.quad, 0, sample.grey}), listed_anew());
+    EXPECT_EQ(cost_of(AssignMaterial{sample.quad, 0, sample.grey}), object_list_rebuilt());
     EXPECT_EQ(cost_of(AssignMaterial{sample.quad, 0, sample.red}), nothing());
 }
 
-TEST_F(EditCost, MakeEmissive) { EXPECT_EQ(cost_of(MakeEmissive{sample.mug, 5}), listed_anew()); }
+TEST_F(EditCost, MakeEmissive) { EXPECT_EQ(cost_of(MakeEmissive{sample.mug, 5}), object_list_rebuilt()); }
 
 TEST_F(EditCost, SetEnvironment) {
     EXPECT_EQ(cost_of_environment([](Environment& e) { e.intensity = 3; }), environment());
@@ -249,7 +249,7 @@ TEST_F(EditCost, SetLens) { EXPECT_EQ(cost_of(SetLens{{.aperture_radius = 0.1f}}
 TEST_F(EditCost, SetSceneSelection) {
     EXPECT_EQ(cost_of(SetSceneSelection{{.seconds = 1}}), nothing()) << "no clip is selected";
     EXPECT_EQ(cost_of(SetSceneSelection{{.clip = sample.swing, .seconds = 1}}), moved());
-    EXPECT_EQ(cost_of(SetSceneSelection{{.variant = 1}}), listed_anew()) << "another material";
+    EXPECT_EQ(cost_of(SetSceneSelection{{.variant = 1}}), object_list_rebuilt()) << "another material";
 }
 
 TEST_F(EditCost, SetRender) {
@@ -263,10 +263,10 @@ TEST_F(EditCost, SetRender) {
 TEST_F(EditCost, SetView) { EXPECT_EQ(cost_of(SetView{{.exposure_ev = 2}}), nothing()) << "exposure is for the display"; }
 
 TEST_F(EditCost, AddDuplicateRemoveImport) {
-    EXPECT_EQ(cost_of(AddLight{}), listed_anew());
-    EXPECT_EQ(cost_of(DuplicateNode{sample.mug}), listed_anew());
-    EXPECT_EQ(cost_of(RemoveNode{sample.mug}), listed_anew());
-    EXPECT_EQ(cost_of(Import{sample_project().project.scene, "sample"}), listed_anew());
+    EXPECT_EQ(cost_of(AddLight{}), object_list_rebuilt());
+    EXPECT_EQ(cost_of(DuplicateNode{sample.mug}), object_list_rebuilt());
+    EXPECT_EQ(cost_of(RemoveNode{sample.mug}), object_list_rebuilt());
+    EXPECT_EQ(cost_of(Import{sample_project().project.scene, "sample"}), object_list_rebuilt());
 }
 
 TEST_F(EditCost, LookThrough) {

@@ -11,7 +11,7 @@ using Kind = Fault::Kind;
 using Place = Fault::Place;
 
 // A valid vertex whose path escapes after `bounce` scatterings.
-ReplayedVertex sound_vertex(int bounce) {
+ReplayedVertex valid_vertex(int bounce) {
     ReplayedVertex v;
     v.bounce = bounce;
     v.path.ray = {{0, 0, 0}, {0, 0, 1}};
@@ -25,19 +25,19 @@ ReplayedVertex sound_vertex(int bounce) {
 }
 std::optional<Fault> fault(const ReplayedVertex& v) { return fault_at(v, SceneTables{}); }
 
-TEST(Fault, OfASoundVertexIsNone) { EXPECT_FALSE(fault(sound_vertex(0))); }
+TEST(Fault, OfAValidVertexIsNone) { EXPECT_FALSE(fault(valid_vertex(0))); }
 
 TEST(Fault, IsFoundInTheRay) {
-    ReplayedVertex v = sound_vertex(0);
+    ReplayedVertex v = valid_vertex(0);
     v.path.ray.direction.y = nan;
     EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::camera, 0}));
-    v = sound_vertex(3);
+    v = valid_vertex(3);
     v.path.ray.origin.x = inf;
     EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::bsdf_sample, 3}));
 }
 
 TEST(Fault, IsFoundInLightAtInfinity) {
-    ReplayedVertex v = sound_vertex(2);
+    ReplayedVertex v = valid_vertex(2);
     v.step.emitted = {0, -1, 0};
     EXPECT_FALSE(fault(v)) << "not added";
     v.step.emits = true;
@@ -45,7 +45,7 @@ TEST(Fault, IsFoundInLightAtInfinity) {
 }
 
 TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
-    ReplayedVertex v = sound_vertex(1);
+    ReplayedVertex v = valid_vertex(1);
     v.step.connects = true;
     v.step.direct = {inf, 0, 0};
     EXPECT_FALSE(fault(v)) << "blocked";
@@ -62,7 +62,7 @@ TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
 }
 
 TEST(Fault, IsFoundInTheScatteredPath) {
-    ReplayedVertex v = sound_vertex(4);
+    ReplayedVertex v = valid_vertex(4);
     v.step.next.beta = {nan, 1, 1};
     v.step.next.pdf = 1;
     EXPECT_FALSE(fault(v)) << "the path ended there";

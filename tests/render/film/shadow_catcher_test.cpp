@@ -15,7 +15,7 @@ namespace {
 
 constexpr float plate_half = 0.25f, plate_height = 1, lamp_height = 2;
 
-void catch_shadows_with(Scene& scene, Id<Node> id) {
+void make_shadow_catcher(Scene& scene, Id<Node> id) {
     Node node = *scene.nodes.find(id);
     node.shadow_catcher = true;
     scene.nodes.set(id, node);
@@ -31,7 +31,7 @@ struct Stage {
         place(scene, floor_quad(plate_half), lambert({0.5f, 0.5f, 0.5f}), at({0, plate_height, 0}));
         place_light(scene, light, aimed({0, lamp_height, 0}, {0, -1, 0}));
         scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
-        catch_shadows_with(scene, floor);
+        make_shadow_catcher(scene, floor);
     }
     // Floor point of the ray through an image position in pixels.
     Vec3d on_floor(double x, double y, int width, int height) const {
@@ -210,7 +210,7 @@ TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
         return renderer.resolve();
     };
     const Frame plain = image();
-    catch_shadows_with(scene, floor);
+    make_shadow_catcher(scene, floor);
     const Frame caught = image();
     int objects = 0;
     for (size_t i = 0; i < plain.object_id.size(); ++i) {
@@ -239,7 +239,7 @@ TEST(ShadowCatcher, DoesNotCatchTheShadowsOfCatchers) {
     }
     place_light(scene, bulb(), aimed({0, lamp_height, 0}, {0, -1, 0}));
     scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
-    catch_shadows_with(scene, group); // and with it all below
+    make_shadow_catcher(scene, group); // and with it all below
     for (const float v : render(scene, settings_for(32, 32, 2)).rgba) ASSERT_EQ(v, 0);
 }
 

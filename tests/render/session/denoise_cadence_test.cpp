@@ -28,7 +28,7 @@ struct Bench {
 
     void offer(const Source& source) { cadence.offer(source, now); }
     // Runs all due tasks.
-    void denoise_what_is_due(const Source& source) {
+    void denoise_if_due(const Source& source) {
         for (auto decision = cadence.next(now); decision.quality; decision = cadence.next(now)) {
             const double took = seconds[size_t(*decision.quality)] * source.megapixels;
             done.push_back({now, *decision.quality, source.samples});
@@ -41,7 +41,7 @@ struct Bench {
         for (int i = 1; i <= frames; ++i) {
             const Source source{image, i, 1, i == frames, 1};
             offer(source);
-            denoise_what_is_due(source);
+            denoise_if_due(source);
             now += 0.1;
         }
     }
@@ -132,7 +132,7 @@ TEST(DenoiseCadence, EnabledLateTheFastQualityComesFirst) {
     const Source source{1, 64, 1, true, 1};
     bench.offer(source);
     bench.now += 3600;
-    bench.denoise_what_is_due(source);
+    bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 2u);
     EXPECT_EQ(bench.done[0].quality, fast);
     EXPECT_EQ(bench.done[1].quality, high);
@@ -142,14 +142,14 @@ TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
     Bench bench;
     const Source source{1, 5, 1, false, 1};
     bench.offer(source);
-    bench.denoise_what_is_due(source);
+    bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 1u);
     for (int i = 0; i < 100; ++i) {
         const double wait = bench.cadence.next(bench.now).wait;
         if (std::isinf(wait)) break;
         ASSERT_GT(wait, 0);
         bench.now += wait + 1e-6;
-        bench.denoise_what_is_due(source);
+        bench.denoise_if_due(source);
     }
     ASSERT_EQ(bench.done.size(), 2u) << "no further runs while paused";
     EXPECT_EQ(bench.done[1].quality, base);
@@ -168,7 +168,7 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
         const bool fits = megapixel_seconds / 16 < DenoiseCadence::frame_seconds;
         EXPECT_EQ(bench.cadence.answers_within_a_frame(), fits);
         EXPECT_EQ(bench.cadence.next(bench.now).quality.has_value(), fits);
-        bench.denoise_what_is_due(coarse);
+        bench.denoise_if_due(coarse);
         EXPECT_FALSE(bench.cadence.answers_within_a_frame()) << "only the first frame of an image is waited for";
     }
 }
@@ -178,7 +178,7 @@ TEST(DenoiseCadence, AfterACoarseImageTheFirstFullOneIsDueAtOnce) {
     bench.render(1, 3);
     const Source coarse{2, 1, 4, false, 1.0 / 16}, full{2, 1, 1, false, 1};
     bench.offer(coarse);
-    bench.denoise_what_is_due(coarse);
+    bench.denoise_if_due(coarse);
     bench.offer(full);
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }

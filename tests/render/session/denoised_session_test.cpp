@@ -72,7 +72,7 @@ private:
     std::vector<Call> calls_;
 };
 
-Result<std::optional<Denoised>> wait_until_unwanted(const std::function<bool()>& wanted) {
+Result<std::optional<Denoised>> wait_until_cancelled(const std::function<bool()>& wanted) {
     EXPECT_TRUE(eventually([&] { return !wanted(); })) << "denoising is not cancelled";
     return std::optional<Denoised>();
 }
@@ -226,7 +226,7 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
         // The first run would never end by itself; the next ones finish at once.
         if (call > 1) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
@@ -267,7 +267,7 @@ TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
     std::atomic<bool> begun{false};
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
@@ -282,7 +282,7 @@ TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
         StandIn networks;
         std::atomic<int> ended{0};
         networks.instead = [&](size_t, const std::function<bool()>& wanted) {
-            auto nothing = wait_until_unwanted(wanted);
+            auto nothing = wait_until_cancelled(wanted);
             ++ended;
             return nothing;
         };
@@ -448,7 +448,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
         if (!slow) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);

@@ -80,7 +80,7 @@ Project project_of(int width, int height, int64_t spp) {
 }
 
 // Yields at the first frame with so many samples.
-auto aside_after(int64_t samples) {
+auto yields_after(int64_t samples) {
     return [samples, done = false](RenderSession& session, const Event& event) mutable {
         if (done || !event.frame || event.frame->samples < samples) return;
         done = true;
@@ -90,7 +90,7 @@ auto aside_after(int64_t samples) {
 
 TEST(YieldToUi, ContinuesFromTheSameSamples) {
     Project project = project_of(32, 24, 64);
-    RecordingSession session(2, aside_after(4));
+    RecordingSession session(2, yields_after(4));
     session->submit(1, project.scene, project.render);
     const Event yielding = session.wait_for(1, State::yielding);
     ASSERT_TRUE(yielding.frame);
@@ -110,7 +110,7 @@ TEST(YieldToUi, ContinuesFromTheSameSamples) {
 
 TEST(YieldToUi, DoesNotDelayAnotherImage) {
     Project project = project_of(32, 24, 8);
-    RecordingSession session(2, aside_after(1));
+    RecordingSession session(2, yields_after(1));
     session->submit(1, project.scene, project.render);
     session.wait_for(1, State::yielding);
     project.scene.view.position.x += 0.1f;
@@ -121,7 +121,7 @@ TEST(YieldToUi, DoesNotDelayAnotherImage) {
 
 TEST(YieldToUi, StillSavesFilms) {
     const Project project = project_of(32, 24, 64);
-    RecordingSession session(2, aside_after(4));
+    RecordingSession session(2, yields_after(4));
     session->submit(1, project.scene, project.render);
     session.wait_for(1, State::yielding);
     session->request_film(1);

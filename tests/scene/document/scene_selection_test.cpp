@@ -94,19 +94,19 @@ TEST(SceneSelection, VariantsAssignAndKeepTheirMaterials) {
     Document document(s.project);
     const auto worn = [&](size_t part) { return document.project().scene.meshes.find(s.quad)->parts[part].material; };
     ASSERT_TRUE(document.apply(SetSceneSelection{{.variant = 1}}));
-    EXPECT_EQ(worn(0), s.grey);
-    EXPECT_EQ(worn(1), s.grey) << "has no variants";
+    EXPECT_EQ(assigned_material(0), s.grey);
+    EXPECT_EQ(assigned_material(1), s.grey) << "has no variants";
     ASSERT_TRUE(document.apply(SetSceneSelection{{.variant = 0}}));
-    EXPECT_EQ(worn(0), s.red) << "has none for this variant";
+    EXPECT_EQ(assigned_material(0), s.red) << "has none for this variant";
 
     // A material is assigned to the chosen variant if the part has a material for it.
     ASSERT_TRUE(document.apply(SetSceneSelection{{.variant = 1}}));
     const Id<Material> checker = document.project().scene.materials.begin()->id;
     ASSERT_TRUE(document.apply(AssignMaterial{s.quad, 0, checker}));
     ASSERT_TRUE(document.apply(SetSceneSelection{}));
-    EXPECT_EQ(worn(0), s.red);
+    EXPECT_EQ(assigned_material(0), s.red);
     ASSERT_TRUE(document.apply(SetSceneSelection{{.variant = 1}}));
-    EXPECT_EQ(worn(0), checker);
+    EXPECT_EQ(assigned_material(0), checker);
     while (document.undo()) {}
     EXPECT_EQ(document.project(), s.project);
 }

@@ -108,7 +108,7 @@ TEST(LightRig, IsOfferedForABlackEnvironment) {
 double lux_at(const Scene& scene, Id<Node> id, const Vec3d& point) {
     const Light& light = *scene.lights.find(scene.nodes.find(id)->light);
     const Affined world = world_from_node(scene, id);
-    const Vec3d facing = normalize(world.t - point), shines = world.z * -1;
+    const Vec3d facing = normalize(world.t - point), emission = world.z * -1;
     constexpr int n = 64;
     double lux = 0;
     for (int i = 0; i < n; ++i)
@@ -116,7 +116,7 @@ double lux_at(const Scene& scene, Id<Node> id, const Vec3d& point) {
             const Vec3d at = world.t + world.x * (((i + 0.5) / n - 0.5) * light.width) + world.y * (((j + 0.5) / n - 0.5) * light.height);
             const Vec3d to = at - point;
             const double d = length(to);
-            lux += std::max(0.0, dot(to, facing) / d) * std::max(0.0, -dot(to, shines) / d) / (d * d);
+            lux += std::max(0.0, dot(to, facing) / d) * std::max(0.0, -dot(to, emission) / d) / (d * d);
         }
     return lux * light.intensity * light.width * light.height / (n * n);
 }

@@ -110,10 +110,10 @@ TEST(LightUnits, ResizingKeepsThePowerIfAsked) {
     Light before = light_of(Kind::disk);
     Light after = before;
     after.radius = 0.6f;
-    EXPECT_EQ(with_power_kept(before, after).intensity, 2);
+    EXPECT_EQ(with_same_power(before, after).intensity, 2);
     after.keep_power = true;
-    EXPECT_NEAR(with_power_kept(before, after).intensity, 0.5, 1e-6);
-    EXPECT_NEAR(luminous_flux(with_power_kept(before, after)) / luminous_flux(before), 1, 1e-6);
+    EXPECT_NEAR(with_same_power(before, after).intensity, 0.5, 1e-6);
+    EXPECT_NEAR(luminous_flux(with_same_power(before, after)) / luminous_flux(before), 1, 1e-6);
 }
 
 } // namespace

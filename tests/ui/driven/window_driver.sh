@@ -83,7 +83,7 @@ leaves() {
     editor=
     rm -f "$probe"
 }
-discard_if_asked() { ! has_widget "Question/Discard" || click "Question/Discard"; }
+discard_if_asked() { ! has_widget "Dialog/Discard" || click "Dialog/Discard"; }
 close_editor() {
     xdotool key ctrl+q
     leaves "Ctrl+Q does not close the window" discard_if_asked

@@ -299,12 +299,12 @@ TEST_F(LongNames, PopupsAndDialogs) {
         extra = [](PanelContext& c, const Layout&) { draw_shortcut_sheet(c); };
         expect_readable("shortcuts");
         ui.show_shortcuts = false;
-        ui.question = Question{.text = "Save " + long_name("File") + " before it is closed?",
-                               .details = long_name("Details"),
-                               .choices = {"Save", "Discard", "Cancel"}};
-        extra = [](PanelContext& c, const Layout&) { draw_question(c); };
-        expect_readable("question");
-        ui.question.reset();
+        ui.dialog = ModalDialog{.text = "Save " + long_name("File") + " before it is closed?",
+                                .details = long_name("Details"),
+                                .choices = {"Save", "Discard", "Cancel"}};
+        extra = [](PanelContext& c, const Layout&) { draw_modal_dialog(c); };
+        expect_readable("modal dialog");
+        ui.dialog.reset();
     });
 }
 

@@ -349,7 +349,7 @@ TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     view.renaming = view.runs.live()->id;
     all_settings();
     for (int state = 0; state <= int(ReferenceStatus::State::there); ++state) {
-        view.news = {ReferenceStatus::State(state), 0.999, 64, 1e-3, "It could not be stored."};
+        view.reference_status = {ReferenceStatus::State(state), 0.999, 64, 1e-3, "It could not be stored."};
         draw_all(document, {});
     }
     EXPECT_FALSE(document.can_undo());
@@ -397,7 +397,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     EXPECT_FALSE(ui.roulette.runner);
     draw();
     ASSERT_TRUE(ui.roulette.runner);
-    while (ui.roulette.runner->state().answer.rounds < 20) draw();
+    while (ui.roulette.runner->state().output.rounds < 20) draw();
     draw();
     EXPECT_FALSE(document.can_undo()) << "drawing edits nothing";
     PanelContext c{document, ui, color, frame, {}, 64, 48};

@@ -160,11 +160,11 @@ TEST(AovView, IdsHaveFixedColours) {
 
 TEST(AovView, MapsErrorAndSamplesWithAScale) {
     const Frame f = frame_with_planes();
-    EXPECT_EQ(shown_at(f, {Show::error}, 1), heat(0)) << "no error";
-    EXPECT_EQ(shown_at(f, {Show::error}, 3), heat(1)) << "larger than the value";
+    EXPECT_EQ(shown_at(f, {Show::error}, 1), heat_map_color(0)) << "no error";
+    EXPECT_EQ(shown_at(f, {Show::error}, 3), heat_map_color(1)) << "larger than the value";
     EXPECT_NEAR(double(relative_error(f, 2)), 0.01, 1e-4) << "of black, as relMSE weighs it";
-    EXPECT_EQ(shown_at(f, {Show::samples}, 3), heat(1));
-    EXPECT_EQ(shown_at(f, {Show::samples}, 0), heat(0.25f));
+    EXPECT_EQ(shown_at(f, {Show::samples}, 3), heat_map_color(1));
+    EXPECT_EQ(shown_at(f, {Show::samples}, 0), heat_map_color(0.25f));
     EXPECT_EQ(map_scale(f, Show::depth)->low, "2 m");
     EXPECT_EQ(map_scale(f, Show::depth)->high, "4 m");
     EXPECT_EQ(map_scale(f, Show::samples)->high, "32");

@@ -155,9 +155,9 @@ TEST_F(Docks, ReopenOnlyWithTheirScene) {
     UiState again;
     again.settings = ui.settings;
     std::swap(ui, again);
-    recall_instruments(context(), "/b.gltf");
+    restore_instruments(context(), "/b.gltf");
     EXPECT_FALSE(ui.scopes.open || ui.show_history);
-    recall_instruments(context(), "/a.gltf");
+    restore_instruments(context(), "/a.gltf");
     EXPECT_TRUE(ui.scopes.open && ui.show_history);
     frames();
     EXPECT_EQ(layout.right_dock.width, std::round(31 * ImGui::GetFontSize()));

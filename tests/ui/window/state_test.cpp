@@ -83,10 +83,10 @@ TEST(Toasts, ExpireAndFailuresLast) {
     toasts.note("saved");
     toasts.fail("broken");
     const auto start = toasts.all().front().since;
-    toasts.expire(start + 6s);
+    toasts.remove_expired(start + 6s);
     ASSERT_EQ(toasts.all().size(), 1u);
     EXPECT_EQ(toasts.all()[0].text, "broken");
-    toasts.expire(start + 60s);
+    toasts.remove_expired(start + 60s);
     EXPECT_TRUE(toasts.all().empty());
 }
 

@@ -53,7 +53,7 @@ void draw_grouping(PanelContext& c) {
     if (f.choice("Groups", grouping, groupings,
                  "Which lights share a gain. Manual: by the group of each light; emissive surfaces by the name of their material.")) {
         mix.grouping = LightMix::Grouping(grouping);
-        c.ui.light_mix.stays_off = mix.grouping == LightMix::Grouping::none;
+        c.ui.light_mix.disabled_by_user = mix.grouping == LightMix::Grouping::none;
         c.apply(SetMix{mix});
     }
 }

@@ -100,7 +100,7 @@ TEST(GltfValidation, ErrorsOfTheValidatorAreRefusedOrReported) {
 TEST(GltfValidation, ValidFilesAreReadWithoutWarnings) {
     REQUIRE_VALIDATOR();
     const TempFolder folder;
-    const GltfFiles sound = sound_files();
+    const GltfFiles sound = valid_files();
     GltfFiles all = sound;
     all.merge(broken_files());
     for (const auto& [name, verdict] : verdicts_of(all, folder)) {

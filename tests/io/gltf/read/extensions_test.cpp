@@ -56,7 +56,7 @@ std::vector<Row> coverage() {
 }
 
 // gtest names of all source files below tests/.
-std::set<std::string> tests_there_are() {
+std::set<std::string> existing_tests() {
     std::set<std::string> tests;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(BLUSH_TESTS))
         if (entry.path().extension() == ".cpp")
@@ -75,7 +75,7 @@ const char* word(ExtensionSupport::Kind kind) {
 }
 
 TEST(GltfCoverage, EveryRowHasAVerdictAndATestThatExists) {
-    const std::set<std::string> known = tests_there_are();
+    const std::set<std::string> known = existing_tests();
     const std::vector<Row> rows = coverage();
     ASSERT_GT(rows.size(), 50u);
     for (const Row& row : rows) {

@@ -52,7 +52,7 @@ Json grid(GltfBuilder& b, int side, float phase, int material) {
 }
 
 // Meshes with several primitives, most of which cause diagnostics, a light, a camera, and textures.
-GltfBuilder busy_file(int meshes = 12) {
+GltfBuilder large_file(int meshes = 12) {
     GltfBuilder b;
     for (unsigned i = 0; i < 6; ++i) add_texture(b, noisy_png(64, i));
     for (int i = 0; i < 6; ++i)
@@ -125,7 +125,7 @@ Result<ImportedScene> import_with(const GltfBuilder& b, unsigned threads) {
 }
 
 TEST(GltfParallel, ResultDoesNotDependOnThreads) {
-    const GltfBuilder b = busy_file();
+    const GltfBuilder b = large_file();
     const auto serial = import_with(b, 1);
     ASSERT_TRUE(serial) << error_text(serial);
     EXPECT_TRUE(reports(serial->report, "NaN")) << "the file causes diagnostics";
@@ -138,7 +138,7 @@ TEST(GltfParallel, ResultDoesNotDependOnThreads) {
 }
 
 TEST(GltfParallel, DiagnosticsAreInFileOrder) {
-    const auto imported = import_with(busy_file(), 8);
+    const auto imported = import_with(large_file(), 8);
     ASSERT_TRUE(imported) << error_text(imported);
     int mesh = 0, last = 0;
     for (const Diagnostic& d : imported->report.diagnostics)
@@ -150,7 +150,7 @@ TEST(GltfParallel, DiagnosticsAreInFileOrder) {
 }
 
 TEST(GltfParallel, TooManyDiagnosticsEndInTheSameLine) {
-    const GltfBuilder b = busy_file(200);
+    const GltfBuilder b = large_file(200);
     const auto serial = import_with(b, 1), parallel = import_with(b, 8);
     ASSERT_TRUE(serial && parallel);
     EXPECT_EQ(serial->report.diagnostics, parallel->report.diagnostics);
@@ -158,7 +158,7 @@ TEST(GltfParallel, TooManyDiagnosticsEndInTheSameLine) {
 }
 
 TEST(GltfParallel, TheFirstErrorInTheFileIsReported) {
-    GltfBuilder b = busy_file();
+    GltfBuilder b = large_file();
     b.json["meshes"][4]["primitives"][1]["material"] = 97;
     b.json["meshes"][3]["primitives"][2]["material"] = 99;
     b.json["meshes"][9]["primitives"][0]["material"] = 98;
@@ -172,7 +172,7 @@ TEST(GltfParallel, TheFirstErrorInTheFileIsReported) {
 
 // The header is valid, so that meshes get tangents for a normal map that then cannot be decoded.
 TEST(GltfParallel, BrokenTexturesDoNotAffectMeshes) {
-    GltfBuilder b = busy_file(), without = busy_file();
+    GltfBuilder b = large_file(), without = large_file();
     const size_t offset = b.json["bufferViews"][2]["byteOffset"], length = b.json["bufferViews"][2]["byteLength"];
     std::fill_n(b.buffer.begin() + std::ptrdiff_t(offset + 60), length - 60, '\0');
     without.json["images"][2] = {{"uri", "missing.png"}};
@@ -190,7 +190,7 @@ TEST(GltfParallel, BrokenTexturesDoNotAffectMeshes) {
 }
 
 TEST(GltfParallel, CanBeCancelledAnywhere) {
-    const GltfBuilder b = busy_file();
+    const GltfBuilder b = large_file();
     for (const unsigned threads : {1u, 8u})
         for (const double when : {0.1, 0.35, 0.5, 0.62, 0.9}) {
             std::atomic<bool> cancel = false;
@@ -214,7 +214,7 @@ TEST(GltfParallel, CanBeCancelledAnywhere) {
 }
 
 TEST(GltfParallel, PreviewSceneComesBeforeTheTextures) {
-    const GltfBuilder b = busy_file();
+    const GltfBuilder b = large_file();
     std::vector<ImportedScene> early;
     ImportOptions options;
     options.threads = 1; // no decoding before the rest is converted
@@ -248,7 +248,7 @@ TEST(GltfParallel, CancelledWhileTexturesAreMissing) {
     options.threads = 1;
     options.cancel = &cancel;
     options.on_preview_scene = [&](const ImportedScene&) { cancel = true; };
-    const auto imported = import_built(busy_file(), options);
+    const auto imported = import_built(large_file(), options);
     ASSERT_FALSE(imported);
     EXPECT_EQ(imported.error().what, "cancelled");
 }

@@ -22,7 +22,7 @@ std::vector<std::string> shown_names(const Scene& scene) {
 }
 
 // A floor in both scenes, a lamp with a shade by day, a candle by night (the default scene).
-GltfBuilder day_and_night() {
+GltfBuilder two_scenes() {
     GltfBuilder b;
     const int positions = b.triangle_positions();
     for (const char* name : {"floor", "lamp", "shade", "candle"}) {
@@ -36,7 +36,7 @@ GltfBuilder day_and_night() {
 }
 
 TEST(GltfScenes, TheDefaultSceneIsShown) {
-    const ImportedScene s = imported(day_and_night());
+    const ImportedScene s = imported(two_scenes());
     EXPECT_EQ(s.scene.scene_names, (std::vector<std::string>{"Day", "Scene 1"}));
     EXPECT_EQ(s.scene.scene_selection.scene, 1);
     EXPECT_EQ(shown_names(s.scene), (std::vector<std::string>{"floor", "candle"}));
@@ -45,7 +45,7 @@ TEST(GltfScenes, TheDefaultSceneIsShown) {
 }
 
 TEST(GltfScenes, OneSceneIsNoChoice) {
-    GltfBuilder b = day_and_night();
+    GltfBuilder b = two_scenes();
     b.json["scenes"].erase(1);
     b.json["scene"] = 0;
     const ImportedScene s = imported(b);
@@ -57,7 +57,7 @@ TEST(GltfScenes, OneSceneIsNoChoice) {
 
 TEST(GltfScenes, SurviveASaveWithTheChoice) {
     const TempFolder folder;
-    write_bytes(folder / "scenes.gltf", day_and_night().gltf());
+    write_bytes(folder / "scenes.gltf", two_scenes().gltf());
     const ImportedScene original = load(folder / "scenes.gltf");
     for (const int32_t chosen : {0, 1}) {
         Project project{with_scene_selection(original.scene, {.scene = chosen}), {}, {}};
@@ -75,7 +75,7 @@ TEST(GltfScenes, SurviveASaveWithTheChoice) {
 }
 
 TEST(GltfScenes, BrokenRootsAreRefused) {
-    GltfBuilder twice = day_and_night(), child = day_and_night(), beyond = day_and_night();
+    GltfBuilder twice = two_scenes(), child = two_scenes(), beyond = two_scenes();
     twice.json["scenes"][0]["nodes"] = {0, 0};
     child.json["scenes"][0]["nodes"] = {2};
     beyond.json["scenes"][0]["nodes"] = {50};
@@ -98,7 +98,7 @@ GltfBuilder chair() {
     return b;
 }
 
-std::string worn(const Scene& scene) {
+std::string assigned_material(const Scene& scene) {
     const Material* material = scene.materials.find(scene.meshes.begin()->value.parts[0].material);
     return material ? material->name : "";
 }
@@ -107,11 +107,11 @@ TEST(GltfVariants, AssignMaterials) {
     const ImportedScene s = imported(chair());
     EXPECT_EQ(s.scene.variants, (std::vector<std::string>{"Plain", "Sea", "Forest"}));
     EXPECT_EQ(s.report.extensions_honoured, (std::vector<std::string>{"KHR_materials_variants"}));
-    EXPECT_EQ(worn(s.scene), "red");
-    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 0})), "red") << "has no mapping";
-    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 1})), "blue");
-    EXPECT_EQ(worn(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {.variant = 2})), "green");
-    EXPECT_EQ(worn(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {})), "red");
+    EXPECT_EQ(assigned_material(s.scene), "red");
+    EXPECT_EQ(assigned_material(with_scene_selection(s.scene, {.variant = 0})), "red") << "has no mapping";
+    EXPECT_EQ(assigned_material(with_scene_selection(s.scene, {.variant = 1})), "blue");
+    EXPECT_EQ(assigned_material(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {.variant = 2})), "green");
+    EXPECT_EQ(assigned_material(with_scene_selection(with_scene_selection(s.scene, {.variant = 1}), {})), "red");
 }
 
 TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
@@ -128,9 +128,9 @@ TEST(GltfVariants, SurviveASaveWithChoiceAndAssignments) {
         for (const Diagnostic& d : saved->diagnostics) ADD_FAILURE() << d.what;
         const ImportedScene loaded = load(folder / "saved.gltf");
         EXPECT_EQ(loaded.scene.scene_selection.variant, 1);
-        EXPECT_EQ(worn(loaded.scene), assigned ? "green" : "blue");
-        EXPECT_EQ(worn(with_scene_selection(loaded.scene, {})), "red");
-        EXPECT_EQ(worn(with_scene_selection(loaded.scene, {.variant = 2})), "green");
+        EXPECT_EQ(assigned_material(loaded.scene), assigned ? "green" : "blue");
+        EXPECT_EQ(assigned_material(with_scene_selection(loaded.scene, {})), "red");
+        EXPECT_EQ(assigned_material(with_scene_selection(loaded.scene, {.variant = 2})), "green");
         EXPECT_EQ(loaded.scene.meshes.begin()->value.parts[0].by_variant, saved->scene.meshes.begin()->value.parts[0].by_variant);
     }
 }
@@ -143,7 +143,7 @@ TEST(GltfVariants, BrokenMappingsAreReported) {
     no_variant.json[mapping]["variants"] = {7, "x"};
     const ImportedScene s = imported(no_variant);
     EXPECT_TRUE(reports(s.report, "a variant that does not exist"));
-    EXPECT_EQ(worn(with_scene_selection(s.scene, {.variant = 1})), "red");
+    EXPECT_EQ(assigned_material(with_scene_selection(s.scene, {.variant = 1})), "red");
     for (int i = 0; i < 3000; ++i) many.json["extensions"]["KHR_materials_variants"]["variants"].push_back({{"name", "more"}});
     EXPECT_EQ(imported(many).scene.variants.size(), 1000u);
 }

@@ -153,8 +153,8 @@ TEST(IesLights, HostileLightsAreRefusedOrReported) {
         return import_text(folder, b.gltf());
     };
     const std::string data = "data:application/x-ies-lm-63;base64," + base64(text_of(downlight));
-    EXPECT_EQ(imported_with({{"uri", data}}, shines(0))->scene.lights.size(), 1u);
-    EXPECT_NE(error_text(imported_with({{"uri", data}}, shines(1))).find("IES light 1 does not exist; there are 1"), std::string::npos);
+    EXPECT_EQ(imported_with({{"uri", data}}, light_node(0))->scene.lights.size(), 1u);
+    EXPECT_NE(error_text(imported_with({{"uri", data}}, light_node(1))).find("IES light 1 does not exist; there are 1"), std::string::npos);
     const Json profiles[] = {Json::object(),
                              7,
                              {{"uri", "none.ies"}},
@@ -164,7 +164,7 @@ TEST(IesLights, HostileLightsAreRefusedOrReported) {
                              {{"uri", "data:,plain"}},
                              {{"bufferView", 3}}};
     for (const Json& profile : profiles) {
-        const auto imported = imported_with(profile, shines(0));
+        const auto imported = imported_with(profile, light_node(0));
         ASSERT_TRUE(imported) << error_text(imported);
         EXPECT_TRUE(reports(imported->report, "ignored: a light whose IES profile cannot be read")) << profile;
         EXPECT_EQ(imported->scene.lights.size(), 0u) << profile;
@@ -172,7 +172,7 @@ TEST(IesLights, HostileLightsAreRefusedOrReported) {
         saved_and_loaded(folder, *imported, imported->scene);
         EXPECT_EQ(written(folder), OrderedJson::parse(*imported->origin.json)) << "unsupported parts are kept";
     }
-    const auto odd = imported_with({{"uri", data}}, shines(0, {{"multiplier", -3}, {"color", {2, "red", 0}}}));
+    const auto odd = imported_with({{"uri", data}}, light_node(0, {{"multiplier", -3}, {"color", {2, "red", 0}}}));
     ASSERT_TRUE(odd) << error_text(odd);
     EXPECT_GE(light_on(odd->scene, 0).intensity, 0);
 }
