@@ -32,7 +32,7 @@ public:
     void handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
     void load(UiState& ui, const std::filesystem::path& file);
 
-    // True while the reference uses all cores: the live render should pause, or its times would be wrong.
+    // True while the reference uses all cores: the live render should pause, so that its times stay correct.
     bool is_rendering_reference() const { return reference_provider_.renders(); }
 
 private:

@@ -1,4 +1,4 @@
-// Messages about what is rendered: new warnings about the scene, and what the session could not do.
+// Messages about the render: new warnings about the scene, and failures of the session.
 #pragma once
 
 #include "render/frame.h"
@@ -14,7 +14,7 @@ namespace blush {
 
 class EditorMessages {
 public:
-    // A file was opened: the next images also tell whether the camera sees any object.
+    // A file was opened: the next images show whether the camera sees any object.
     void opened() { checks_visible_objects_ = true; }
     // For each frame of the current document.
     void update(const Frame& frame, const Scene& scene, Toasts& toasts);

@@ -298,7 +298,7 @@ TEST(MaterialTable, FeaturesOfLayersAreWhatTheMaterialUses) {
     EXPECT_EQ(with([](Material& c) { c.anisotropy = 1; }), reflecting.with(Feature::anisotropy));
     EXPECT_EQ(with([](Material& c) { c.iridescence = 1; }), reflecting.with(Feature::iridescence));
     EXPECT_EQ(with([](Material& c) { c.diffuse_transmission = 1; }), reflecting.with(Feature::diffuse_transmission));
-    // Dispersion needs refraction; what has an inside needs to know about it.
+    // Dispersion alone needs no feature: it only has an effect in a solid with transmission.
     EXPECT_EQ(with([](Material& c) { c.dispersion = 1; }), reflecting);
     EXPECT_EQ(with([](Material& c) { c.dispersion = c.transmission = c.thickness = 1; }),
               reflecting.with(Feature::transmission).with(Feature::dispersion));

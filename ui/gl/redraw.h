@@ -17,7 +17,7 @@ class Redraw {
 public:
     // True if `data`, or the content of any texture, differs from the last call. `data` is ImGui's draw data after Render().
     bool is_needed(const ImDrawData& data);
-    // The next frame is needed: the window system has lost what was drawn.
+    // The next frame is needed: the window system has lost the content of the window.
     void force() { drawn_.clear(); }
 
 private:

@@ -31,7 +31,7 @@ public:
     MapPreview of(const Image& image);
 
 private:
-    static constexpr size_t most = 256; // above this, all are created anew
+    static constexpr size_t most = 256; // above this, all are dropped and created again
     struct Kept {
         GlTexture texture;
         int width = 0, height = 0;

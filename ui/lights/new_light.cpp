@@ -88,7 +88,7 @@ double distance_to_wall(const Scene& scene, const Vec3d& from, const Vec3d& dire
 struct Direction {
     double around, above, strength;
 };
-// Of the wanted distance to the subject: with less room, another direction is better.
+// Of the wanted distance to the subject: with less space, another direction is better.
 constexpr double min_free_share = 0.4;
 constexpr Direction key{40, 40, 1}, fill{-55, 15, 0.25}, rim{160, 45, 1};
 constexpr Direction in_turn[] = {key, fill, rim, {0, 80, 1}, {-120, 35, 1}, {95, 20, 1}, {-20, 55, 1}, {70, 60, 1}, {-160, 15, 1}};
@@ -129,7 +129,7 @@ LightPlacement placement_around_subject(const Scene& scene, const View& view, co
             // A floor that extends beyond the image is not a subject: the light need not be outside of it.
             if (const double out = in_room ? 0 : 1.1 * distance_to_exit(subject, target, direction); out < max_reach_factor * reach)
                 distance = std::max(distance, out);
-            // Beside an object that stands close to the subject a light would light a spot of it: other directions come first.
+            // A light close to another object would light only a spot of it: other directions come first.
             const double free = std::min(distance * farther, farthest[i]);
             (free < min_free_share * distance ? cramped : spots).push_back({target + direction * free, target, in_turn[i].strength});
         }

@@ -177,7 +177,7 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     const std::vector<KeyEntry> key = key_of(p);
     float needed = ImGui::CalcTextSize(p.plot.title.c_str()).x;
     for (const KeyEntry& entry : key) needed += entry.width();
-    if (needed > l.right - l.left) p.plot.title.clear(); // the buttons above say what is plotted, too
+    if (needed > l.right - l.left) p.plot.title.clear(); // the buttons above already show the metric
     draw_plot(*ImGui::GetWindowDrawList(), p.plot, l, origin, font, em, plot_tones_dark());
     draw_key(key, l, origin);
     ImGui::InvisibleButton("chart", size);

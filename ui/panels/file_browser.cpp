@@ -77,7 +77,7 @@ void choose_by_arrows(FileBrowser& b, const std::vector<FileEntry>& entries) {
     const auto at = std::ranges::find(entries, b.chosen, &FileEntry::name);
     const ptrdiff_t last = std::ssize(entries) - 1;
     const ptrdiff_t next = at == entries.end() ? (step > 0 ? 0 : last) : std::clamp(at - entries.begin() + step, ptrdiff_t(0), last);
-    ImGui::ClearActiveID(); // Enter now opens what is selected
+    ImGui::ClearActiveID(); // Enter now opens the selected entry
     choose(b, entries[size_t(next)]);
     b.scroll_to_chosen = true;
 }

@@ -51,7 +51,7 @@ void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
-void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: what was measured
+void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: the measurements
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 // Runs the meters, even if their panel is closed: the image shows their readings.

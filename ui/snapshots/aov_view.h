@@ -20,7 +20,7 @@ struct AovEntry {
     AovView view;
     std::string name;
     std::string needs = {}; // why the AOV is not available yet; empty: it is available
-    bool possible = true;   // false: only the user can provide what is missing
+    bool possible = true;   // false: only the user can provide the missing data
 };
 // All AOVs: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
 // list has no groups.

@@ -12,7 +12,7 @@ namespace blush {
 enum class ImageState {
     current,          // the displayed image is finished
     drawing,          // an image is drawn, in several UI frames if it is large
-    drawing_new_look, // likewise, after a change of view settings, which the user waits for
+    drawing_new_look, // the same after a change of view settings, which the user waits for
     preview,          // a preview of the light mix is finished: the next edit or full resolution follows
     drawing_preview,
 };
@@ -23,7 +23,7 @@ constexpr bool is_preview(ImageState s) { return s == ImageState::preview || s =
 // Time without a change after which an edit of the mix has paused: during a drag, not every UI frame has mouse input.
 constexpr std::chrono::milliseconds mix_pause_after{120};
 
-// Differences are those from what was uploaded last.
+// `new_...`: compared with the last upload.
 struct ImageInputs {
     bool has_frame = false;                    // a frame with pixels is published
     bool has_image = false;                    // an image was uploaded

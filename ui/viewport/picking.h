@@ -1,4 +1,4 @@
-// What is under the mouse, from a frame's AOVs; no rays are traced.
+// Object, material and surface point under the mouse, read from a frame's AOVs; no rays are traced.
 #pragma once
 
 #include "render/frame.h"

@@ -161,7 +161,7 @@ void Viewport::upload_subsampled(const MixPreviewSource& moved, const Gains& gai
     display_.upload_denoised(denoised.width, denoised.height, denoised.values);
 }
 
-// What the user wants to see.
+// The inputs of the image that the viewport should show.
 struct Viewport::WantedImage {
     ImageView view;
     DisplayLook look;

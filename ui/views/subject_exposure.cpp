@@ -14,7 +14,7 @@ namespace blush {
 namespace {
 
 constexpr int cells_across = 40, cells_down = 24;
-constexpr double min_subject_area = 0.005; // minimum area of the selection, or of what is in focus, to be the subject
+constexpr double min_subject_area = 0.005; // minimum area of the selection, or of the objects in focus, to be the subject
 constexpr double sharp_blur = 0.01;        // diameter of the circle of confusion divided by the height of the image
 constexpr double darkest = 1.0 / 256;      // of the mean: darker cells are clamped to this
 constexpr double max_clipped = 0.03;       // of the subject, and of the image

@@ -30,7 +30,7 @@ struct DockSizes {
     bool operator==(const DockSizes&) const = default;
 };
 
-// What reduces the space of the image.
+// Areas around the image that reduce its space.
 struct ViewportInsets {
     bool right = false, bottom = false; // docks that have content
     DockSizes docks = {};

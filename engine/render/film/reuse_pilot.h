@@ -1,4 +1,4 @@
-// Pilot of path reuse: measures on a part of the image what it gains and costs.
+// Pilot of path reuse: measures gain and cost of path reuse on a part of the image.
 #pragma once
 
 #include "core/parallel.h"

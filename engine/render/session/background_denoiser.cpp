@@ -146,7 +146,7 @@ DenoiseCadence::Decision BackgroundDenoiser::due() const {
     return wanted_ && maker_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
 }
 
-// Before the thread that offers a frame goes on rendering.
+// Before the thread that offers a frame continues to render.
 void BackgroundDenoiser::update_pause() { pauses_rendering_ = (running_.quality ? running_ : due()).pauses_rendering; }
 
 void BackgroundDenoiser::run() {

@@ -1,4 +1,4 @@
-// Help > Guide: addresses of pages, and what is reported when a page or xdg-open is missing.
+// Help > Guide: addresses of pages, and the message when a page or xdg-open is missing.
 #include "app/editor/guide.h"
 #include "tests/support/process.h"
 

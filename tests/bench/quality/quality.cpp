@@ -62,7 +62,7 @@ Reference reference_of(const Scene& scene, const Options& options) {
     return reference;
 }
 
-// What was measured at one time after an edit, over the rounds.
+// The measurements at one time after an edit, over the rounds.
 struct AtDeadline {
     std::vector<double> flip, relmse, divider, samples;
 };

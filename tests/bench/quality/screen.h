@@ -24,7 +24,7 @@ public:
 
     // Shows the scene at full size, denoised if wanted, and refines it for `seconds`. Errors: those of the session.
     Result<void> show(const Scene& scene, const RenderSettings& settings, double seconds);
-    // Submits the edited scene and takes what is shown at each of the `deadlines`, ascending seconds after the edit; it keeps the
+    // Submits the edited scene and records the displayed images at each of the `deadlines`, ascending seconds after the edit; it keeps the
     // frames and copies no pixels, so that it does not disturb the session. Then the session pauses until the next show().
     Result<AfterEdit> edit(const Scene& scene, const RenderSettings& settings, std::span<const double> deadlines);
 

@@ -195,7 +195,7 @@ TEST(Flattened, CopiesWithEqualStretchShareAMesh) {
     EXPECT_TRUE(left_out.empty());
 }
 
-// The product of the factors is the original, and each factor has its promised properties.
+// The product of the factors is the original, and each factor has its documented properties.
 TEST(Flattened, TransformsAreFactored) {
     std::mt19937 random(1);
     std::normal_distribution<double> normal;

@@ -1,4 +1,4 @@
-// The pilot of path reuse: what it decides, that it does not depend on how the image is rendered, and that it biases nothing.
+// The pilot of path reuse: its decision, that the decision does not depend on how the image is rendered, and that it adds no bias.
 #include "render/film/reuse_pilot.h"
 
 #include "render/compile/expand_area_lights.h"
@@ -122,7 +122,7 @@ TEST(ReusePilot, FollowsASettingWithoutMeasuring) {
     EXPECT_TRUE(use.used && !use.pilot) << use.why;
 }
 
-// ---- what it does not depend on
+// ---- independence
 
 TEST(ReusePilot, DoesNotDependOnThreadsSeedStopRulesOrRegion) {
     const Scene scene = window_room();

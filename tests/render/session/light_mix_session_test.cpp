@@ -52,7 +52,7 @@ TEST(SessionMix, AppliesToExistingSamples) {
     EXPECT_EQ(after->gains, (Gains{{1, 1, 1}, {3, 3, 3}}));
     EXPECT_NE(after->rgba, before->rgba);
     EXPECT_NE(after->error.rmse, before->error.rmse);
-    // What the window shows meanwhile, mixed from the previous frame.
+    // The window's preview until then, mixed from the previous frame.
     const std::vector<float> meanwhile = mixed_rgba(*before, after->gains);
     for (size_t i = 0; i < meanwhile.size(); ++i) ASSERT_NEAR(meanwhile[i], after->rgba[i], 0x1p-20f * after->rgba[i]);
 

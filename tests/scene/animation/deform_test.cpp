@@ -22,7 +22,7 @@ void expect_near(const Vec3d& a, const Vec3d& b, const char* what) {
 }
 
 // A strip along Y: corners at the heights 0, 1 and 2. The lower joint is at the origin, the upper one at height 1 below it; the middle
-// corners follow both alike.
+// corners follow both in the same way.
 struct Strip {
     Scene scene;
     Id<Node> lower, upper, body;

@@ -18,7 +18,7 @@ Quat about_z(double degrees) {
 }
 // The angle between two rotations in degrees.
 double between(const Quat& a, const Quat& b) {
-    // By the chord, which tells small angles better than the cosine. Both signs of a quaternion are one rotation.
+    // By the chord, which is more accurate for small angles than the cosine. Both signs of a quaternion are one rotation.
     const auto chord = [&](double sign) {
         return std::hypot(std::hypot(a.x - sign * b.x, a.y - sign * b.y), std::hypot(a.z - sign * b.z, a.w - sign * b.w));
     };

@@ -53,7 +53,7 @@ TEST(BlackBody, GoesFromRedToBlue) {
     }
 }
 
-// Off the locus by what was asked for, at right angles to it, upwards for green.
+// The result is off the locus by the requested tint, perpendicular to it; a positive tint is towards green.
 TEST(BlackBody, GreenTintIsPerpendicularToTheLocus) {
     const auto uv = [](const Vec3& c) {
         const Chromaticity xy = chromaticity(c);

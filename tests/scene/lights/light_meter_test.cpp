@@ -73,7 +73,7 @@ TEST(ImageRegions, AreWholePixels) {
     EXPECT_EQ(pixels_of({}, 640, 480), (PixelRect{0, 0, 640, 480}));
     EXPECT_EQ(pixels_of({0.25f, 0.5f, 0.5f, 0.25f}, 100, 10), (PixelRect{25, 5, 75, 8}));
     EXPECT_EQ(pixels_of({0.999f, 0.999f, 1e-6f, 1e-6f}, 100, 100), (PixelRect{99, 99, 100, 100})) << "one at least";
-    // What the command line asks for in pixels comes back, whatever the size.
+    // A region in pixels, as on the command line, is the same after conversion, for every image size.
     for (const int width : {1, 7, 640, 65536})
         for (const int x : {0, width / 3, width - 1}) {
             const ImageRegion r{float(x) / float(width), 0, float(width - x) / float(width), 1};

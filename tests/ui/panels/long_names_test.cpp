@@ -308,7 +308,7 @@ TEST_F(LongNames, PopupsAndDialogs) {
     });
 }
 
-// What is written into the image, in the viewport as wide as the docks leave it and in a narrow one.
+// Text over the image, in the viewport beside open docks and in a narrow one.
 TEST_F(LongNames, ViewportOverlays) {
     ui.home = home_at_opening(document.project().scene);
     ASSERT_TRUE(ui.home.camera);

@@ -159,7 +159,7 @@ TEST(GltfSaveDocument, UnknownThingsAndTheirOrderAreKept) {
     scene.lights.set(lamp_id, brighter);
     const auto saved = save_gltf(original.origin, {scene, {}, {}}, folder / "saved.gltf");
     ASSERT_TRUE(saved) << error_text(saved);
-    // The same text but for the two numbers.
+    // The same text except for the two numbers.
     OrderedJson expected = OrderedJson::parse(*original.origin.json);
     OrderedJson& light = expected["extensions"]["KHR_lights_punctual"]["lights"][0];
     light["intensity"] = 321.0;

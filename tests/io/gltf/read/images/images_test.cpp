@@ -23,7 +23,7 @@ std::string png_of(const Image& image) {
     EXPECT_TRUE(bytes);
     return {bytes->begin(), bytes->end()};
 }
-// Rows of black and white in turn, and everything opaque.
+// Alternating black and white rows, all opaque.
 Image stripes(int width, int height) {
     Image image{.width = width, .height = height, .channels = 3, .bytes = {}, .floats = {}};
     for (int i = 0; i < width * height * 3; ++i) image.bytes.push_back(i / (3 * width) % 2 ? 255 : 0);
