@@ -144,7 +144,7 @@ Vec3d Handles::anchor(const Scene& scene, std::span<const TransformTarget> targe
 void Handles::grab(PanelContext& c, Handle handle, const std::optional<LightInView>& seen, const ViewRay& ray) {
     dragged_ = handle;
     start_ray_ = ray;
-    start_sight_ = seen;
+    start_in_view_ = seen;
     grabbed_.clear();
     for (const Id<Node> id : subtree_roots(c.scene(), c.ui.selection(c.scene())))
         grabbed_.push_back({id, world_from_node(c.scene(), id).t});
@@ -185,7 +185,7 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     case Handle::spread:
     case Handle::sun_angle:
         set_light(c, c.scene().nodes.find(c.ui.selected)->light,
-                  resized(*start_sight_, dragged_, projection, start_ray_, projection.ray(u, v)), c.ui.gestures.current());
+                  resized(*start_in_view_, dragged_, projection, start_ray_, projection.ray(u, v)), c.ui.gestures.current());
         break;
     default: break;
     }

@@ -40,7 +40,7 @@ private:
 
     Handle dragged_ = Handle::none;
     ViewRay start_ray_{};
-    std::optional<LightInView> start_sight_;
+    std::optional<LightInView> start_in_view_;
     // Selected nodes that are not descendants of other selected ones, with their initial transforms.
     struct Grabbed {
         Id<Node> node;

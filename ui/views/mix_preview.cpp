@@ -32,7 +32,7 @@ int MixPreview::step_in_time(const MixPreviewSource& moved, double milliseconds,
         const double pixels = double(moved.frame->width) * moved.frame->height / (step * step), work = pixels * moved.planes();
         const bool kept = step == 1 || ((!moved.shows_raw || is_kept(raw_, moved.frame, step)) &&
                                         (!moved.shows_denoised || is_kept(denoised_, moved.denoised, step)));
-        if (drawing(pixels) + work / mixing_ + (kept ? 0 : work / thinning_) <= milliseconds) return step;
+        if (drawing(pixels) + work / mixing_ + (kept ? 0 : work / subsampling_) <= milliseconds) return step;
     }
     return coarsest;
 }
@@ -48,7 +48,7 @@ void MixPreview::subsample(Kept& kept, const std::shared_ptr<const void>& of, co
     kept.planes = subsampled(planes, width, height, step);
     kept.of = of;
     kept.step = step;
-    thinning_ = per_millisecond(double(kept.planes.width) * kept.planes.height * double(planes.size()), begin);
+    subsampling_ = per_millisecond(double(kept.planes.width) * kept.planes.height * double(planes.size()), begin);
 }
 
 // On this thread only: the work is small, and the worker threads may be busy with the session's work, at low priority.

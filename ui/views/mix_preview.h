@@ -53,7 +53,7 @@ private:
 
     Kept raw_, denoised_;
     // Pixels of one plane per millisecond: conservative initial values.
-    double thinning_ = 1.5e5, mixing_ = 5e5;
+    double subsampling_ = 1.5e5, mixing_ = 5e5;
 };
 
 } // namespace blush
