@@ -370,7 +370,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     const bool hovered = ImGui::IsItemHovered();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     c.ui.cursor.reset();
-    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = ImagePoint{image.u(mouse.x), image.v(mouse.y)};
+    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = ImagePosition{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) {
         shown_frame_ = uploaded_frame_ = nullptr; // nothing is displayed any more
         region_backdrop_.forget();

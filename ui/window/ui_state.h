@@ -113,7 +113,7 @@ struct LightTableView {
 };
 
 // A point in the image, (0, 0) top left.
-struct ImagePoint {
+struct ImagePosition {
     double u = 0, v = 0;
 };
 
@@ -142,7 +142,7 @@ struct UiState {
     std::string rename_text;
 
     ImageZoom zoom;
-    std::optional<ImagePoint> cursor; // while the mouse is over the image and no other window
+    std::optional<ImagePosition> cursor; // while the mouse is over the image and no other window
     ViewTool tool = ViewTool::none;
     std::optional<ToolStart> tool_start; // while the tool's drag is active
     DenoiseView denoise;                 // view setting: not part of the document and its history
