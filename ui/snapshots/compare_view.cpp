@@ -71,7 +71,7 @@ void CompareView::set_shader(const DisplayShader& shader) {
     shader_changed_ = true;
 }
 
-void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b) {
+void CompareView::update_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b) {
     const Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode != Mode::difference) return;
     const bool denoised = c.ui.denoise.wants_denoised();
@@ -193,7 +193,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
     }
     const ComparedSide a = compared_side(c, compare.a), b = compared_side(c, compare.b);
     if (a.id == b.id || !a.images.frame || !b.images.frame) return;
-    ask_difference(c, a, b);
+    update_difference(c, a, b);
     update(c, a, b, look, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);

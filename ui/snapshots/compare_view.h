@@ -41,7 +41,7 @@ private:
         float u = 1, v0 = 0, v1 = 1;
         float aspect = 0; // of the image; 0: same as the live one
     };
-    void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
+    void update_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FrameBudget& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
