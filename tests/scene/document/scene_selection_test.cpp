@@ -92,7 +92,7 @@ TEST(SceneSelection, AViewThroughACameraFollowsIt) {
 TEST(SceneSelection, VariantsAssignAndKeepTheirMaterials) {
     Sample s = sample_project();
     Document document(s.project);
-    const auto worn = [&](size_t part) { return document.project().scene.meshes.find(s.quad)->parts[part].material; };
+    const auto assigned_material = [&](size_t part) { return document.project().scene.meshes.find(s.quad)->parts[part].material; };
     ASSERT_TRUE(document.apply(SetSceneSelection{{.variant = 1}}));
     EXPECT_EQ(assigned_material(0), s.grey);
     EXPECT_EQ(assigned_material(1), s.grey) << "has no variants";
