@@ -94,7 +94,7 @@ Scene desk() {
         scene.nodes.add(node);
     }
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_image(8, 4, 3, 0.3f);
+    scene.environment.image = uniform_image(8, 4, 3, 0.3f);
     scene.environment.intensity = 0.7f;
     scene.environment.rotation_degrees = 33;
     scene.mix.grouping = LightMix::Grouping::by_hand;
@@ -155,7 +155,7 @@ std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
     ball.mesh = scene.meshes.add({"ball", {{std::make_shared<const Geometry>(std::move(g)), scene.materials.add(steel)}}});
     scene.nodes.add(ball);
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_image(8, 4, 3, 0.3f);
+    scene.environment.image = uniform_image(8, 4, 3, 0.3f);
     scene.view.position = {0, 0, 4};
     const std::string file = folder / "ball.gltf";
     const auto saved = save_gltf(origin, {scene, {}, {}}, file);

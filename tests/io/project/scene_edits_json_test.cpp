@@ -97,7 +97,7 @@ TEST(SceneEdits, EnvironmentMapsAreReadAgain) {
     Scene now = imported;
     now.environment.kind = Environment::Kind::image;
     now.environment.file = "sky.exr";
-    now.environment.image = float_image(1, 1, 3, 0);
+    now.environment.image = uniform_image(1, 1, 3, 0);
     const auto applied = apply_edits_json(imported, edits_json(imported, now), folder.path());
     ASSERT_TRUE(applied) << error_text(applied);
     EXPECT_EQ(applied->environment.image->floats, (std::vector<float>{1, 2, 3}));

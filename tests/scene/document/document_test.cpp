@@ -197,7 +197,7 @@ TEST(Document, HistoryIsLimitedInMemory) {
     for (int i = 0; i < 8; ++i) {
         Environment environment;
         environment.kind = Environment::Kind::image;
-        environment.image = test::float_image(64, 32, 3, float(i));
+        environment.image = test::uniform_image(64, 32, 3, float(i));
         ASSERT_TRUE(document.apply(SetEnvironment{environment}));
     }
     int steps = 0;
