@@ -1,4 +1,4 @@
-// An instrument: a panel that opens in a dock beside the picture or in a window of its own.
+// An instrument: a panel that opens in a dock beside the image or in a window of its own.
 #pragma once
 
 #include "ui/panel_context.h"

@@ -7,7 +7,7 @@
 #include "render/light_mix/rename_mix_channels.h"
 #include "render/session/render_session.h"
 #include "scene/document/document.h"
-#include "ui/views/shown_picture.h"
+#include "ui/views/shown_image.h"
 #include "ui/widgets/waveform_sheet.h"
 #include "ui/window/ui_state.h"
 
@@ -23,10 +23,10 @@ struct PanelContext {
     SessionStatus status;
     // Resolution of the full-size image.
     int render_width = 0, render_height = 0;
-    DenoisedPtr denoised = {};                    // of the frame's image; null: none
-    std::string denoiser_problem = {};            // why denoising is not possible; empty: it is possible
-    const FeatureReport* window_ledger = nullptr; // features of the window itself; null: none
-    const Mixing* mixing = nullptr;               // gains that turn the frame's light groups into the current scene's picture; null: none
+    DenoisedPtr denoised = {};                      // of the frame's image; null: none
+    std::string denoiser_problem = {};              // why denoising is not possible; empty: it is possible
+    const FeatureReport* window_features = nullptr; // features of the window itself; null: none
+    const Mixing* mixing = nullptr;                 // gains that turn the frame's light groups into the current scene's image; null: none
 
     float metered_ev = 0;                                                    // result of auto exposure for the frame; 0 if it is off
     WaveformTextures waveforms = {};                                         // of the scopes
@@ -34,8 +34,8 @@ struct PanelContext {
 
     // The view settings, with auto exposure applied.
     ViewSettings shown_view() const { return settled(project().view, metered_ev); }
-    bool has_picture() const { return frame && frame->width > 0; }
-    ShownPicture shown_picture() const { return {frame, denoised, mix_of(ui.denoise, denoised != nullptr), shown_view(), &color}; }
+    bool has_image() const { return frame && frame->width > 0; }
+    ShownImage shown_image() const { return {frame, denoised, mix_of(ui.denoise, denoised != nullptr), shown_view(), &color}; }
     const Project& project() const { return document.project(); }
     const Scene& scene() const { return document.project().scene; }
     // Applies an edit. If the document refuses it, an error toast is shown.

@@ -1,7 +1,7 @@
 #include "app/commands/compare_images.h"
 
 #include "app/commands/common.h"
-#include "app/commands/render/picture.h"
+#include "app/commands/render/write_image.h"
 #include "io/image/image_io.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
 #include "app/commands/interrupt.h"
-#include "app/commands/render/picture.h"
 #include "app/commands/render/render_options.h"
+#include "app/commands/render/write_image.h"
 #include "app/common/assets_dir.h"
 #include "core/srgb.h"
 #include "io/image/image_io.h"
@@ -85,7 +85,7 @@ Result<void> write_display_output(const DenoiseCommand& c, const LayeredImage& i
     const std::map<std::string, std::string> metadata{{"blush:version", BLUSH_VERSION}, {"blush:denoised", denoised_by(denoised)}};
     std::vector<float> rgb = denoised.rgb;
     if (!is_display_encoded(c.input))
-        return write_display_picture(c.output, image.width, image.height, std::move(rgb), color, c.view, metadata);
+        return write_through_view(c.output, image.width, image.height, std::move(rgb), color, c.view, metadata);
     std::ranges::transform(rgb, rgb.begin(), srgb_from_linear);
     return write_display_image(c.output, image.width, image.height, rgb, metadata);
 }
@@ -128,7 +128,7 @@ OrderedJson outcome_json(const DenoiseCommand& c, const Outcome& outcome) {
 }
 
 int run_denoise(const DenoiseCommand& c) {
-    const Result<PictureFormat> format = picture_format(c.output);
+    const Result<ImageFormat> format = image_format(c.output);
     if (!format) return bad_usage(format.error().text());
     if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
     const Result<std::optional<ColorManagement>> color = color_for(*format, c.view);
@@ -147,7 +147,7 @@ void add_denoise_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<DenoiseCommand>();
     CLI::App* sub = app.add_subcommand("denoise", "Denoise an image; uses the channels albedo.{R,G,B} and normal.{X,Y,Z} if it has both");
     sub->add_option("input", command->input, "EXR, HDR, PNG or JPEG file")->required()->type_name("IN");
-    sub->add_option("-o,--output", command->output, "EXR: all channels of IN and a layer \"denoised\"; PNG and JPEG: the denoised picture")
+    sub->add_option("-o,--output", command->output, "EXR: all channels of IN and a layer \"denoised\"; PNG and JPEG: the denoised image")
         ->required()
         ->type_name("OUT");
     sub->add_option_function<std::string>(

@@ -2,7 +2,7 @@
 
 #include "app/commands/progress.h"
 #include "core/text.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 
 #include <fmt/format.h>
 

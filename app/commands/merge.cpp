@@ -3,7 +3,7 @@
 #include "app/commands/common.h"
 #include "app/commands/json_output.h"
 #include "app/commands/render/film_json.h"
-#include "app/commands/render/picture.h"
+#include "app/commands/render/write_image.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -127,7 +127,7 @@ Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, Snapsh
     const std::vector<LosslessPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
     if (layers.error) extra.error = resolved->error;
-    const Result<int64_t> written = write_exr_picture(c.output, resolved->frame, extra, layers, metadata);
+    const Result<int64_t> written = write_exr_image(c.output, resolved->frame, extra, layers, metadata);
     return written ? Result<void>() : written.error();
 }
 
@@ -206,7 +206,7 @@ int run_merge(const MergeCommand& c) {
     if (!merged) return failed(in_file(merged.error(), c.output));
     if (const Result<void> written = write_json(c.common.json, merged_json(c, *merged)); !written) return failed(written.error());
     if (!c.common.quiet && c.common.json != "-")
-        fmt::print("{}: {}x{}, samples {}:{} of {} pictures, {}\n", c.output, merged->width, merged->height, merged->metadata.first_sample,
+        fmt::print("{}: {}x{}, samples {}:{} of {} images, {}\n", c.output, merged->width, merged->height, merged->metadata.first_sample,
                    merged->metadata.last_sample, c.inputs.size(), merged->exact ? "from their sums" : "from their means");
     return exit_done;
 }

@@ -1,4 +1,4 @@
-// `blush merge`: merges renders of one scene with different sample ranges into one picture.
+// `blush merge`: merges renders of one scene with different sample ranges into one image.
 #pragma once
 
 #include <functional>

@@ -34,7 +34,7 @@ Result<Frame> frame_from_layers(const LayeredImage& image, const SnapshotMetadat
     f.width = image.width;
     f.height = image.height;
     const std::vector<float> rgb = interleaved(image, {"R", "G", "B"});
-    if (rgb.empty()) return Error{.what = "the picture has no channels R, G and B"};
+    if (rgb.empty()) return Error{.what = "the image has no channels R, G and B"};
     const LayeredImage::Channel* alpha = image.find("A");
     f.rgba.resize(rgb.size() / 3 * 4);
     for (size_t i = 0; i < rgb.size() / 3; ++i) {
@@ -52,18 +52,18 @@ Result<Frame> frame_from_layers(const LayeredImage& image, const SnapshotMetadat
 }
 
 DenoisedPtr denoised_from_layer(const LayeredImage& image, const SnapshotMetadata& m, int64_t samples) {
-    auto picture = std::make_shared<DenoisedPicture>();
-    picture->denoised.rgb = interleaved(image, {"denoised.R", "denoised.G", "denoised.B"});
-    if (picture->denoised.rgb.empty()) return nullptr;
-    picture->denoised.network = m.denoised;
-    picture->width = image.width;
-    picture->height = image.height;
-    picture->samples = samples;
-    return picture;
+    auto made = std::make_shared<DenoisedImage>();
+    made->denoised.rgb = interleaved(image, {"denoised.R", "denoised.G", "denoised.B"});
+    if (made->denoised.rgb.empty()) return nullptr;
+    made->denoised.network = m.denoised;
+    made->width = image.width;
+    made->height = image.height;
+    made->samples = samples;
+    return made;
 }
 
-std::filesystem::path find_scene(const std::filesystem::path& picture, const SnapshotMetadata& m, const std::filesystem::path& open_scene) {
-    const std::filesystem::path folder = picture.parent_path(), name = std::filesystem::path(m.scene).filename();
+std::filesystem::path find_scene(const std::filesystem::path& file, const SnapshotMetadata& m, const std::filesystem::path& open_scene) {
+    const std::filesystem::path folder = file.parent_path(), name = std::filesystem::path(m.scene).filename();
     std::error_code error;
     for (const std::filesystem::path& candidate : {folder / m.scene_file, folder / name, open_scene.filename() == name ? open_scene : ""})
         if (!candidate.empty() && std::filesystem::is_regular_file(candidate, error))
@@ -98,10 +98,10 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
         }
     }
     if (!frame) return in_file(frame.error(), file.string());
-    s.pictures.denoised = denoised_from_layer(*image, *metadata, frame->samples);
-    s.pictures.frame = std::make_shared<const Frame>(*std::move(frame));
+    s.images.denoised = denoised_from_layer(*image, *metadata, frame->samples);
+    s.images.frame = std::make_shared<const Frame>(*std::move(frame));
     if (s.scene_file.empty())
-        s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the picture.", metadata->scene);
+        s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the image.", metadata->scene);
     return opened;
 }
 

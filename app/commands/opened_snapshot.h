@@ -1,4 +1,4 @@
-// Loads a snapshot from its file: the picture first, the state when its scene is loaded. The file is untrusted.
+// Loads a snapshot from its file: the image first, the state when its scene is loaded. The file is untrusted.
 #pragma once
 
 #include "core/result.h"
@@ -14,12 +14,12 @@ struct OpenedSnapshot {
     Snapshot snapshot;         // without project, imported scene and thumbnail
     SnapshotMetadata metadata; // from which these are made
 };
-// Reads pictures, samples, name and note. snapshot.scene_file is the scene's path, if the file exists there or beside the
-// picture; else `open_scene`, the open file, if it has the same name. Errors: unreadable, not written by Blush, damaged image
+// Reads images, samples, name and note. snapshot.scene_file is the scene's path, if the file exists there or beside the
+// image; else `open_scene`, the open file, if it has the same name. Errors: unreadable, not written by Blush, damaged image
 // data. Invalid samples are dropped: snapshot.film is null.
 Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const std::filesystem::path& open_scene);
 
-// The state of a picture, as far as the scene file is unchanged.
+// The state of an image, as far as the scene file is unchanged.
 struct SnapshotState {
     Project project;
     std::string warning; // differences from the saved state, as a sentence; empty: none

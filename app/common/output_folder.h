@@ -1,4 +1,4 @@
-// Default folder for pictures and charts.
+// Default folder for images and charts.
 #pragma once
 
 #include <filesystem>

@@ -36,7 +36,7 @@ namespace {
 
 // libgomp reads these when it is loaded, before main, and prints warnings about them. It is used with one thread at a time
 // (render/denoise/convolution.cpp), so they have no other effect; TBB_VERSION makes TBB print its version.
-bool is_chatty(const char* variable) {
+bool enables_logging(const char* variable) {
     for (const char* name : {"OMP_", "GOMP_", "TBB_VERSION="})
         if (std::strncmp(variable, name, std::strlen(name)) == 0) return true;
     return false;
@@ -47,7 +47,7 @@ void begin_process(int, char**, char** environment) {
     std::set_terminate(end_with_a_line);
     char** kept = environment;
     for (char** at = environment; *at; ++at)
-        if (!is_chatty(*at)) *kept++ = *at;
+        if (!enables_logging(*at)) *kept++ = *at;
     *kept = nullptr;
 }
 

@@ -93,7 +93,7 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
         if (asked) warn(fmt::format("--light {} is ignored: the scene has light of its own", to_string(*light)));
         return {};
     }
-    if (!light) warn("no light in this file: the picture is black (use --light studio or --light sky)");
+    if (!light) warn("no light in this file: the image is black (use --light studio or --light sky)");
     if (!asked) return {};
     Result<Scene> lit = with_light_rig(scene, *light, studio_map());
     if (!lit) return lit.error();

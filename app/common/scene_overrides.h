@@ -46,7 +46,7 @@ struct SceneOverrides {
     SceneSelectionOptions scene_selection = {};
 };
 
-// Without a camera in the scene, one is framed around it for a picture of `aspect` (width / height). Errors: unknown animation,
+// Without a camera in the scene, one is framed around it for an image of `aspect` (width / height). Errors: unknown animation,
 // scene, variant or camera, unreadable environment map, invalid lens. `warnings`: no light in the scene, or --light not needed.
 // `has_view`: the scene was saved with a view, which is used.
 Result<void> apply_overrides(const SceneOverrides& overrides, Scene& scene, float aspect, bool has_view = false,

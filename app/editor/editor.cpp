@@ -78,7 +78,7 @@ private:
     uint64_t submitted_revision() const { return submitted_ ? submitted_->revision : 0; }
     bool worth_restoring(const FilmState& film, const RenderSettings& r) const;
     void submit_preview(const Scene& scene);
-    bool shows_preview() const { return pictures_.frame && pictures_.frame->revision <= last_preview_; }
+    bool shows_preview() const { return images_.frame && images_.frame->revision <= last_preview_; }
 
     Automation automation_;
     std::unique_ptr<Window> window_; // constructed first, destroyed last: the session calls wake()
@@ -92,15 +92,15 @@ private:
     EditorSaving saving_;
     DesktopFileDialog desktop_file_dialog_{&Window::wake};
     bool leaving_ = false;
-    EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> go_on) {
-                                   saving_.before_losing_edits("opening another scene", std::move(go_on));
+    EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> then) {
+                                   saving_.before_losing_edits("opening another scene", std::move(then));
                                }};
     ThumbnailSheet thumbnails_;
     WaveformSheet waveforms_;
     FrameStats stats_;
     FrameBudget pace_;
-    Pictures pictures_;
-    PictureMix wanted_mix_;
+    Images images_;
+    ImageMix wanted_mix_;
     EditorConvergence convergence_;
     LiveMix mix_;
     OneShotMetering metering_;
@@ -111,12 +111,12 @@ private:
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
     uint64_t last_revision_ = 0;
     uint64_t last_preview_ = 0; // revision of the last scene shown while textures load; 0: none
-    bool session_paused_ = false, session_denoises_ = false, session_aside_ = false;
+    bool session_paused_ = false, session_denoises_ = false, session_yields_ = false;
     bool remembered_follow_viewport_ = true; // the saved setting, before the command line
     Layout layout_;                          // of the last UI frame
-    bool instruments_recalled_ = false;
+    bool instruments_restored_ = false;
     ImageRect image_;
-    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until a picture in full resolution exists
+    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until an image in full resolution exists
     Clock::time_point frame_begin_{};
 };
 
@@ -169,7 +169,7 @@ void Editor::run() {
         submit();
         draw();
     }
-    if (!shows_preview()) opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_, true);
+    if (!shows_preview()) opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
     saving_.end();
     snapshots_.finish_all();
     remember();
@@ -187,7 +187,7 @@ void Editor::poll() {
             messages_.opened();
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
             snapshots_.load_strip(ui_, files_.scene_file());
-            if (!std::exchange(instruments_recalled_, true)) recall_instruments(context(), files_.scene_file().string());
+            if (!std::exchange(instruments_restored_, true)) restore_instruments(context(), files_.scene_file().string());
         }
         window_->request_frames(2);
     }
@@ -195,12 +195,12 @@ void Editor::poll() {
     if (window_->close_requested()) {
         window_->cancel_close();
         window_->request_frames(2);
-        if (!ui_.question) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
+        if (!ui_.dialog) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
     for (const auto& file : window_->take_dropped_files()) takers().dispatch_dropped(file);
     // While text is edited or a popup is open, it receives the keys. Esc closes menus and combo boxes; dialogs handle it
     // themselves.
-    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.question, menu = any_popup_open();
+    const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.dialog, menu = any_popup_open();
     const bool flying = ImGui::IsMouseDown(ImGuiMouseButton_Right); // letters are then navigation keys instead of commands
     for (const KeyPress& press : window_->take_key_presses()) {
         if (ui_.transform.takes_keys()) {
@@ -226,11 +226,11 @@ PanelContext Editor::context() {
     return {document_shown(),
             ui_,
             color_,
-            pictures_.frame,
+            images_.frame,
             status,
             std::max(1, int(float(r.width) * r.resolution_scale)),
             std::max(1, int(float(r.height) * r.resolution_scale)),
-            pictures_.denoised,
+            images_.denoised,
             status.denoiser_failure.empty() ? weights_problem_ : status.denoiser_failure,
             &display_.feature_report(),
             mix_.mixing(),
@@ -240,15 +240,15 @@ PanelContext Editor::context() {
 void Editor::panels() {
     const ViewSettings view = document_shown().project().view;
     settle(ui_.frame, view, document_shown().project().scene, ui_.home.camera);
-    display_.update_shader(view, pictures_.frame, viewport_, thumbnails_, ui_.toasts);
-    display_.update_ledger(session_.status());
-    display_.meter(view.auto_exposure, pictures_.frame);
+    display_.update_shader(view, images_.frame, viewport_, thumbnails_, ui_.toasts);
+    display_.update_feature_report(session_.status());
+    display_.meter(view.auto_exposure, images_.frame);
     window_->set_text_size(ui_.settings.text_size);
     window_->begin_frame();
     ui_.seconds_to_next_frame = 1e9;
     ui_.probe.begin_frame();
     ui_.wraps_cursor = false;
-    mix_.follow(pictures_.frame, document_shown());
+    mix_.follow(images_.frame, document_shown());
     PanelContext c = context();
     draw_regions(c);
     draw_on_top(c);
@@ -270,13 +270,13 @@ void Editor::draw_regions(PanelContext& c) {
     const Layout l = layout_ = window_layout(c, screen.x, screen.y);
     ImGui::BeginDisabled(files_.preview() != nullptr); // edits would be lost when the scene replaces the document
     if (panels) draw_side_panels(c, l);
-    // after all code that changes lights: the picture of this frame shows their edits
-    mix_.follow(pictures_.frame, document_shown());
+    // after all code that changes lights: the image of this frame shows their edits
+    mix_.follow(images_.frame, document_shown());
     c.mixing = mix_.mixing();
     begin_region("Viewport", l.viewport, {.padded = false, .background = false});
-    pace_.begin_picture(Clock::now());
+    pace_.begin_image(Clock::now());
     image_ = files_.preview() ? viewport_.draw_alone(c, pace_, files_.preview_note().c_str()) : viewport_.draw(c, pace_);
-    pace_.end_picture(Clock::now());
+    pace_.end_image(Clock::now());
     end_region();
     begin_region("Status", l.status, {.padded = false});
     draw_status_bar(c);
@@ -296,7 +296,7 @@ void Editor::draw_on_top(PanelContext& c) {
     const RunningJob* const job = opening ? &*opening : other ? &*other : nullptr;
     if (job) ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, 0.1);
     if (draw_cards(c, layout_.viewport, job) && opening) files_.cancel();
-    draw_question(c);
+    draw_modal_dialog(c);
 }
 
 // Executes requests of panels, menus and keys.
@@ -319,10 +319,10 @@ void Editor::handle_requests(PanelContext& c) {
     const bool paused = ui_.paused || convergence_.is_rendering_reference();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
     // While a mix is edited, only its drawing matters.
-    if (session_aside_ != viewport_.is_thinned()) session_.yield_to_ui(session_aside_ = viewport_.is_thinned());
+    if (session_yields_ != viewport_.is_subsampled()) session_.yield_to_ui(session_yields_ = viewport_.is_subsampled());
     const bool denoises = ui_.denoise.wants_denoised() || ui_.convergence.wants_denoised();
     if (session_denoises_ != denoises) session_.want_denoised(session_denoises_ = denoises);
-    const PictureMix mix = mix_of(ui_.denoise, pictures_.denoised != nullptr);
+    const ImageMix mix = mix_of(ui_.denoise, images_.denoised != nullptr);
     if (mix != wanted_mix_) stats_.view_changed(frame_begin_);
     wanted_mix_ = mix;
 }
@@ -342,11 +342,11 @@ void Editor::run_own_command(Command command) {
 }
 
 void Editor::save_due_snapshot() {
-    const FramePtr& frame = pictures_.frame;
+    const FramePtr& frame = images_.frame;
     if (shows_preview()) return;
     if (snapshot_due_ == SnapshotDue::none || !frame || frame->revision != submitted_revision() || frame->divider != 1) return;
     EditorSnapshots::Shown shown{
-        submitted_revision(), pictures_,         ui_.denoise,         document_.project(),
+        submitted_revision(), images_,           ui_.denoise,         document_.project(),
         submitted_->settings, files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
@@ -358,7 +358,7 @@ void Editor::save_due_snapshot() {
 RenderSettings Editor::render_settings() {
     RenderSettings r = document_shown().project().render;
     if (ui_.settings.follow_viewport && layout_.room.width > 0) {
-        const PictureSize size = picture_size(ui_.frame, int(layout_.room.width), int(layout_.room.height));
+        const ImageSize size = image_size(ui_.frame, int(layout_.room.width), int(layout_.room.height));
         r.width = size.width;
         r.height = size.height;
     }
@@ -374,10 +374,10 @@ void Editor::keep_size(const RenderSettings& kept) {
                     "To render at the window's size again, switch on Fit viewport in the Render tab.");
 }
 
-// Not if the displayed picture is the same image with more samples.
+// Not if the displayed image is the same image with more samples.
 bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
     const bool same = submitted_ && !changes_since(submitted_.get(), {document_.project().scene, r}).affects_image();
-    return !same || !pictures_.frame || pictures_.frame->revision != submitted_revision() || pictures_.frame->samples < film.samples;
+    return !same || !images_.frame || images_.frame->revision != submitted_revision() || images_.frame->samples < film.samples;
 }
 
 // Submits the project if something that affects the image has changed.
@@ -412,13 +412,13 @@ void Editor::submit_preview(const Scene& scene) {
 }
 
 void Editor::latest() {
-    pictures_ = session_.pictures();
-    if (shows_preview() && !files_.preview() && files_.scene_file().empty()) pictures_ = {}; // there is no document to return to
-    if (!shows_preview()) convergence_.update(ui_.convergence, pictures_);
-    if (pictures_.frame && pictures_.frame->revision == submitted_revision() && !files_.preview()) {
-        metering_.update(document_, pictures_.frame, ui_, color_);
-        messages_.update(*pictures_.frame, document_.project().scene, ui_.toasts);
-        opening_page_.keep_thumbnail(files_.scene_file(), pictures_.frame, document_.project().view, color_);
+    images_ = session_.images();
+    if (shows_preview() && !files_.preview() && files_.scene_file().empty()) images_ = {}; // there is no document to return to
+    if (!shows_preview()) convergence_.update(ui_.convergence, images_);
+    if (images_.frame && images_.frame->revision == submitted_revision() && !files_.preview()) {
+        metering_.update(document_, images_.frame, ui_, color_);
+        messages_.update(*images_.frame, document_.project().scene, ui_.toasts);
+        opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_);
     }
     messages_.update(session_.status(), ui_);
 }
@@ -435,8 +435,8 @@ void Editor::draw() {
         state.height = shown->height;
         state.samples = shown->samples;
         state.complete = shown->complete;
-        state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_thinned();
-        state.shown = shown->revision <= last_preview_ ? "while textures load" : shown_text(ui_.denoise, *shown, pictures_.denoised.get());
+        state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_subsampled();
+        state.shown = shown->revision <= last_preview_ ? "while textures load" : shown_text(ui_.denoise, *shown, images_.denoised.get());
     }
     const bool drawn = window_->end_frame();
     state.inputs = window_->settled_inputs();
@@ -444,10 +444,10 @@ void Editor::draw() {
     const auto now = Clock::now();
     const FrameTimes took = pace_.end(now, drawn);
     // Without swapping buffers, nothing else limits the rate of frames that come by themselves.
-    if (!drawn && !viewport_.draws_picture()) ui_.seconds_to_next_frame = std::max(ui_.seconds_to_next_frame, FrameBudget::unchanged_pause);
-    // Loading and shader compilation before the first picture are not part of the statistics.
+    if (!drawn && !viewport_.draws_image()) ui_.seconds_to_next_frame = std::max(ui_.seconds_to_next_frame, FrameBudget::unchanged_pause);
+    // Loading and shader compilation before the first image are not part of the statistics.
     if (shown) drawn ? stats_.add_frame(took, now) : stats_.add_unchanged_frame();
-    mix_.follow(pictures_.frame, document_shown());
+    mix_.follow(images_.frame, document_shown());
     const bool mixed = shown && mix_.is_shown_by(*shown, viewport_.shown_gains());
     if (shown) stats_.shown(mixed ? submitted_revision() : shown->revision, now);
     if (viewport_.shows(wanted_mix_)) stats_.view_change_shown(now);

@@ -20,7 +20,7 @@ struct EditorOptions {
     // Settings from the command line override those saved with the scene.
     bool settings_given = false, view_given = false;
     bool exposure_given = false; // exposure set on the command line: no metering when the scene opens
-    bool denoise = false;        // start with the denoised picture
+    bool denoise = false;        // start with the denoised image
     bool follow_viewport = true; // render at the viewport's size; false: render.width x render.height, from `--size`
     unsigned threads = 0;        // 0: one per core
 };

@@ -54,21 +54,21 @@ template <class BranchEdit> bool apply_to_selection(PanelContext& c, const std::
     return c.apply(edits, name);
 }
 
-// The surface under the mouse, if it is over an object in the picture; else the subject's centre.
-LightSpot spot_for_new_light(PanelContext& c) {
+// The surface under the mouse, if it is over an object in the image; else the subject's centre.
+LightPlacement placement_of_new_light(PanelContext& c) {
     const View& view = c.scene().view;
     if (const auto& cursor = c.ui.cursor; cursor && c.frame && c.frame->width > 0) {
         const Projection projection(view, double(c.frame->width) / c.frame->height);
         if (const auto surface = surface_at_pixel(*c.frame, projection, cursor->u, cursor->v))
-            return spot_over_surface(c.scene(), view, *surface);
+            return placement_above_surface(c.scene(), view, *surface);
     }
     const Bounds selected = bounds_of_meshes(c.scene(), c.ui.selection(c.scene()));
-    return spot_round_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
+    return placement_around_subject(c.scene(), view, selected.empty ? world_bounds(c.scene()) : selected);
 }
 
 void add_light(PanelContext& c, Light::Kind kind) {
     const Id<Node> last = last_node(c.scene());
-    if (c.apply(new_light(kind, c.scene().view, spot_for_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
+    if (c.apply(new_light(kind, c.scene().view, placement_of_new_light(c), c.shown_view().exposure_ev))) select_all_after(c, last);
 }
 
 void add_ground(PanelContext& c, bool catches_shadows) {
@@ -173,7 +173,7 @@ void reset_white(PanelContext& c) {
 void compare(PanelContext& c, Comparison::Mode mode) {
     if (!c.ui.snapshots.toggle(mode))
         c.ui.toasts.note("There is no snapshot to compare",
-                         keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current picture.");
+                         keys_of(shortcut(Command::snapshot_exr)) + " takes a snapshot of the current image.");
 }
 
 void toggle_denoise(PanelContext& c) {
@@ -273,8 +273,8 @@ constexpr CommandAction command_actions[] = {
     {Command::bounces, [](PanelContext& c) { toggle_instrument(c, "bounces"); }},
     {Command::import_report, [](PanelContext& c) { toggle_instrument(c, "import_report"); }},
     {Command::health, [](PanelContext& c) { toggle_instrument(c, "health"); }},
-    {Command::next_pass, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); }},
-    {Command::previous_pass, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); }},
+    {Command::next_aov, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); }},
+    {Command::previous_aov, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); }},
     {Command::render_region, [](PanelContext& c) { c.ui.tool = ViewTool::region; }},
     {Command::render_all, [](PanelContext& c) { render_region(c, {}); }},
     {Command::measure, [](PanelContext& c) { c.ui.tool = ViewTool::measure; }},

@@ -6,7 +6,7 @@
 #include "io/image/image_io.h"
 #include "measure/convergence/convergence_csv.h"
 #include "measure/plot/plot_svg.h"
-#include "ui/views/convergence_picture.h"
+#include "ui/views/convergence_image.h"
 
 #include <algorithm>
 #include <chrono>
@@ -59,24 +59,24 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, co
     reference_provider_.forget();
 }
 
-// The same samples with other weights: earlier errors, and the reference, belong to another picture.
+// The same samples with other weights: earlier errors, and the reference, belong to another image.
 void EditorConvergence::remix(const std::string& name, const Submission& next) {
     first_revision_ = next.revision;
     subject_.scene = next.scene;
     remixed_by_ = name;
-    measuring_.forget_pictures();
+    measuring_.forget_images();
     reference_provider_.forget();
 }
 
-void EditorConvergence::update(ConvergenceView& view, const Pictures& pictures) {
+void EditorConvergence::update(ConvergenceView& view, const Images& images) {
     const auto begin = Clock::now();
-    const FramePtr& frame = pictures.frame;
-    // The error of a coarse picture is not comparable.
+    const FramePtr& frame = images.frame;
+    // The error of a coarse image is not comparable.
     const bool ours = frame && frame->revision >= first_revision_ && frame->divider == 1 && view.runs.live();
     if (ours && frame != last_frame_) record(view, frame);
-    if (ours && pictures.denoised && pictures.denoised != last_denoised_) record_denoised(view, pictures.denoised);
+    if (ours && images.denoised && images.denoised != last_denoised_) record_denoised(view, images.denoised);
     last_frame_ = frame;
-    last_denoised_ = pictures.denoised;
+    last_denoised_ = images.denoised;
     recording_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
     measure(view, ours ? frame : nullptr);
     if (ours) view.cost = {frame->error_seconds, recording_seconds_, measuring_.seconds(), frame->seconds};
@@ -96,14 +96,14 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
         measuring_.add_raw(frame);
 }
 
-void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& picture) {
-    if (!view.denoised || picture->revision < first_revision_ || picture->divider != 1) return;
-    measuring_.add_denoised(picture);
+void EditorConvergence::record_denoised(ConvergenceView& view, const DenoisedPtr& image) {
+    if (!view.denoised || image->revision < first_revision_ || image->divider != 1) return;
+    measuring_.add_denoised(image);
 }
 
 void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
     const ConvergenceRun* live = view.runs.live();
-    // Not while a drag changes the picture: each key would read the whole scene.
+    // Not while a drag changes the image: each key would read the whole scene.
     const bool settled = live && live->record.points(Kind::estimated).size() >= ConvergenceRuns::min_points;
     if (view.open && view.reference && settled && frame) {
         subject_.settings.width = frame->width;
@@ -113,7 +113,7 @@ void EditorConvergence::measure(ConvergenceView& view, const FramePtr& frame) {
     }
     if (reference_provider_.poll() && frame) measuring_.add_raw(frame);
     measuring_.poll(view.runs, view.reference ? reference_provider_.reference() : nullptr, frame);
-    view.news = reference_provider_.news();
+    view.reference_status = reference_provider_.status();
     view.waiting = live ? measuring_.waiting(live->record) : 0;
 }
 
@@ -154,8 +154,8 @@ void EditorConvergence::save(UiState& ui, ConvergenceView::Export format, const 
         break;
     case ConvergenceView::Export::png:
         extension = ".png";
-        write = [picture = draw_chart_picture(chart.plot)](const auto& file) {
-            return write_display_image(file, picture.width, picture.height, picture.rgb);
+        write = [image = draw_chart_image(chart.plot)](const auto& file) {
+            return write_display_image(file, image.width, image.height, image.rgb);
         };
         break;
     }

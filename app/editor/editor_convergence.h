@@ -1,4 +1,4 @@
-// Convergence runs of the editor: records the error of each picture, separates the runs, and writes and reads their files.
+// Convergence runs of the editor: records the error of each image, separates the runs, and writes and reads their files.
 #pragma once
 
 #include "app/editor/error_measurement.h"
@@ -26,18 +26,18 @@ public:
     void begin(ConvergenceView& view, const std::string& name, const SubmissionPtr& next);
     // From this submission on, the samples have another light mix.
     void remix(const std::string& name, const Submission& next);
-    // Call once per UI frame with the newest pictures.
-    void update(ConvergenceView& view, const Pictures& pictures);
+    // Call once per UI frame with the newest images.
+    void update(ConvergenceView& view, const Images& images);
     // Executes requests of the panel. Files are written to `folder`, named after `scene_file`.
     void handle_requests(UiState& ui, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
     void load(UiState& ui, const std::filesystem::path& file);
 
-    // True while the reference uses all cores: the live render should pause, or its times would be wrong.
+    // True while the reference uses all cores: the live render should pause, so that its times stay correct.
     bool is_rendering_reference() const { return reference_provider_.renders(); }
 
 private:
     void record(ConvergenceView& view, const FramePtr& frame);
-    void record_denoised(ConvergenceView& view, const DenoisedPtr& picture);
+    void record_denoised(ConvergenceView& view, const DenoisedPtr& image);
     void measure(ConvergenceView& view, const FramePtr& frame);
     void save(UiState& ui, ConvergenceView::Export format, const std::filesystem::path& folder, const std::filesystem::path& scene_file);
 
@@ -50,7 +50,7 @@ private:
     SubmissionPtr submitted_; // the last one; null: none yet
     size_t steps_to_redo_ = 0;
 
-    std::string remixed_by_; // the last edit of the mix, until its picture is seen; empty: none
+    std::string remixed_by_; // the last edit of the mix, until its image is seen; empty: none
     FramePtr last_frame_;
     DenoisedPtr last_denoised_;
     double recording_seconds_ = 0;

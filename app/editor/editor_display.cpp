@@ -8,7 +8,7 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
                                   Toasts& toasts) {
     using Clock = std::chrono::steady_clock;
     const DisplayTransform wanted = transform_of(view);
-    // No OCIO processor and no lookup tables before the first picture.
+    // No OCIO processor and no lookup tables before the first image.
     if (!frame || (shader_ready_ && wanted == transform_)) return;
     shader_ready_ = true;
     transform_ = wanted;
@@ -20,7 +20,7 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
     int64_t bytes = 0;
     for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
     view_transform_ = {"display", "view transform",
-                       true,      "the picture is shown through it",
+                       true,      "the image is shown through it",
                        bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
     feature_report_.clear();
 }
@@ -32,7 +32,7 @@ void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
     metered_ev_ = metered_ ? metered_exposure(rule, metered_->rgba, 4) : 0;
 }
 
-void EditorDisplay::update_ledger(const SessionStatus& status) {
+void EditorDisplay::update_feature_report(const SessionStatus& status) {
     if (!feature_report_.empty() && status.denoised_with == denoised_with_) return;
     denoised_with_ = status.denoised_with;
     feature_report_ = denoiser_feature_report(weights_, denoised_with_);

@@ -20,7 +20,7 @@ public:
     void update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts);
     // Meters the frame if auto exposure is on.
     void meter(AutoExposure rule, const FramePtr& frame);
-    void update_ledger(const SessionStatus& status);
+    void update_feature_report(const SessionStatus& status);
 
     float metered_ev() const { return metered_ev_; } // 0 if auto exposure is off
     const FeatureReport& feature_report() const { return feature_report_; }
@@ -33,7 +33,7 @@ private:
     FramePtr metered_;
     AutoExposure metered_by_ = AutoExposure::off;
     float metered_ev_ = 0;
-    FeatureUse view_transform_{"display", "view transform", false, "no picture yet"};
+    FeatureUse view_transform_{"display", "view transform", false, "no image yet"};
     FeatureReport feature_report_;
     std::array<bool, denoise_qualities> denoised_with_{};
 };

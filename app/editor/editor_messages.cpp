@@ -32,12 +32,12 @@ void EditorMessages::update(const Frame& frame, const Scene& scene, Toasts& toas
     }
     // Every pixel's first hits, of enough samples that thin objects are among them.
     constexpr int64_t enough_samples = 4;
-    if (!looks_for_objects_ || frame.divider != 1 || (frame.samples < enough_samples && !frame.complete)) return;
-    looks_for_objects_ = false;
+    if (!checks_visible_objects_ || frame.divider != 1 || (frame.samples < enough_samples && !frame.complete)) return;
+    checks_visible_objects_ = false;
     const bool sees_one = frame.depth.empty() || std::ranges::any_of(frame.depth, [](float depth) { return depth > 0; });
     if (!sees_one && !scene.meshes.empty())
         toasts.add(
-            {Toast::Kind::warning, "The camera sees no object of the scene", "The picture shows only the background.", Command::frame_all});
+            {Toast::Kind::warning, "The camera sees no object of the scene", "The image shows only the background.", Command::frame_all});
 }
 
 void EditorMessages::update(const SessionStatus& status, UiState& ui) {

@@ -1,4 +1,4 @@
-// Messages about what is rendered: new warnings about the scene, and what the session could not do.
+// Messages about the render: new warnings about the scene, and failures of the session.
 #pragma once
 
 #include "render/frame.h"
@@ -14,16 +14,16 @@ namespace blush {
 
 class EditorMessages {
 public:
-    // A file was opened: the next pictures also tell whether the camera sees any object.
-    void opened() { looks_for_objects_ = true; }
+    // A file was opened: the next images show whether the camera sees any object.
+    void opened() { checks_visible_objects_ = true; }
     // For each frame of the current document.
     void update(const Frame& frame, const Scene& scene, Toasts& toasts);
-    // Shows the raw picture if it cannot be denoised.
+    // Shows the raw image if it cannot be denoised.
     void update(const SessionStatus& status, UiState& ui);
 
 private:
     std::shared_ptr<const std::vector<Diagnostic>> known_;
-    bool looks_for_objects_ = false;
+    bool checks_visible_objects_ = false;
     std::string last_not_continued_;
 };
 

@@ -1,4 +1,4 @@
-// Draws the panels around the picture and the windows above it, in their order.
+// Draws the panels around the image and the windows above it, in their order.
 #pragma once
 
 #include "ui/panel_context.h"
@@ -9,7 +9,7 @@ namespace blush {
 // The layout for a window of this size, with the docks that have content.
 Layout window_layout(PanelContext& c, float width, float height);
 
-// Draws outliner, timeline and inspector in their regions, then the docks. Panels change lights, so they come before the picture,
+// Draws outliner, timeline and inspector in their regions, then the docks. Panels change lights, so they come before the image,
 // which then shows the edits in the same frame.
 void draw_side_panels(PanelContext& c, const Layout& layout);
 

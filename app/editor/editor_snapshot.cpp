@@ -2,7 +2,7 @@
 
 #include "app/commands/denoising.h"
 #include "app/commands/render/film_json.h"
-#include "app/commands/render/picture.h"
+#include "app/commands/render/write_image.h"
 #include "app/common/scene_overrides.h"
 #include "app/common/unique_filename.h"
 #include "io/image/display_image.h"
@@ -16,7 +16,7 @@
 namespace blush {
 namespace {
 
-// Relative to the picture's folder, so that both can be moved together.
+// Relative to the image's folder, so that both can be moved together.
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     std::error_code error;
     const std::filesystem::path relative = std::filesystem::relative(file, folder, error);
@@ -24,9 +24,9 @@ std::string seen_from(const std::filesystem::path& folder, const std::filesystem
 }
 
 // `denoised`: as displayed; null: none.
-SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path& file, const DenoisedPicture* denoised) {
+SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path& file, const DenoisedImage* denoised) {
     const Snapshot& s = job.snapshot;
-    const Frame& f = *s.pictures.frame;
+    const Frame& f = *s.images.frame;
     SnapshotMetadata m;
     if (job.metadata) {
         m = *job.metadata;
@@ -60,13 +60,13 @@ SnapshotMetadata metadata_of(const SnapshotJob& job, const std::filesystem::path
 // Crops to the camera's frame, without samples, which belong to the full size.
 SnapshotJob cut_out(SnapshotJob job) {
     Snapshot& s = job.snapshot;
-    const Frame& whole = *s.pictures.frame;
+    const Frame& whole = *s.images.frame;
     s.error = cropped(s.error, whole.width, *s.frame);
-    s.pictures.denoised = cropped(s.pictures.denoised, *s.frame);
-    s.pictures.frame = std::make_shared<const Frame>(cropped(whole, *s.frame));
+    s.images.denoised = cropped(s.images.denoised, *s.frame);
+    s.images.frame = std::make_shared<const Frame>(cropped(whole, *s.frame));
     s.film = nullptr;
-    s.settings.width = s.pictures.frame->width;
-    s.settings.height = s.pictures.frame->height;
+    s.settings.width = s.images.frame->width;
+    s.settings.height = s.images.frame->height;
     s.frame.reset();
     return job;
 }
@@ -81,7 +81,7 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
     if (!file) return file.error();
     const Snapshot& s = job.snapshot;
     const Layers layers{.albedo = true, .normal = true, .depth = true, .error = true, .samples = true, .ids = true, .groups = true};
-    const DenoisedPicture* denoised = s.pictures.denoised.get();
+    const DenoisedImage* denoised = s.images.denoised.get();
     SnapshotMetadata metadata = metadata_of(job, *file, denoised);
     ExtraLayers extra{.error = s.error};
     extra.half = job.half;
@@ -93,7 +93,7 @@ Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job) {
         metadata.film = film_json(*s.film);
     }
     extra.film = film;
-    const Result<int64_t> count_beyond_half = write_exr_picture(*file, *s.pictures.frame, extra, layers, metadata);
+    const Result<int64_t> count_beyond_half = write_exr_image(*file, *s.images.frame, extra, layers, metadata);
     if (!count_beyond_half) return count_beyond_half.error();
     return SavedSnapshot{*file, *count_beyond_half};
 }
@@ -102,15 +102,15 @@ Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorMana
     if (job.snapshot.frame) return write_snapshot_png(cut_out(job), color);
     const auto file = unique_filename(job.folder, job.snapshot.scene_file.stem().string(), ".png");
     if (!file) return file.error();
-    const Frame& frame = *job.snapshot.pictures.frame;
-    const DenoisedPicture* denoised = job.view.wants_denoised() ? job.snapshot.pictures.denoised.get() : nullptr;
-    std::vector<float> shown = mixed_picture(frame, denoised, mix_of(job.view, denoised != nullptr));
+    const Frame& frame = *job.snapshot.images.frame;
+    const DenoisedImage* denoised = job.view.wants_denoised() ? job.snapshot.images.denoised.get() : nullptr;
+    std::vector<float> shown = mixed_image(frame, denoised, mix_of(job.view, denoised != nullptr));
     const ViewSettings& view = job.snapshot.project.view;
     const std::vector<float> coverage = coverage_of(frame);
     const ViewSettings as_shown = settled(view, metered_exposure(view.auto_exposure, frame.rgba, 4));
     const auto written =
-        write_display_picture(*file, frame.width, frame.height, std::move(shown), color, as_shown,
-                              display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage}, opacity_of(frame));
+        write_through_view(*file, frame.width, frame.height, std::move(shown), color, as_shown,
+                           display_metadata(metadata_of(job, *file, denoised)), {frame.albedo, coverage}, opacity_of(frame));
     if (!written) return written.error();
     return SavedSnapshot{*file, 0};
 }

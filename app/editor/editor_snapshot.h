@@ -27,13 +27,13 @@ struct SavedSnapshot {
     int64_t count_beyond_half = 0; // number of values outside the range of 16 bits
 };
 
-// If the picture extends beyond the camera's frame, only the frame is saved. An EXR with samples contains all pixels, because the
+// If the image extends beyond the camera's frame, only the frame is saved. An EXR with samples contains all pixels, because the
 // samples need them, and has the frame as its display window.
 //
-// The layered EXR of docs/reference/exr.md: always the raw beauty, the denoised picture as a layer, and the state for Restore.
+// The layered EXR of docs/reference/exr.md: always the raw beauty, the denoised image as a layer, and the state for Restore.
 // The file name is the scene's plus a number, so that no file is overwritten.
 Result<SavedSnapshot> write_snapshot_exr(const SnapshotJob& job);
-// The displayed picture, after the view transform, as a PNG.
+// The displayed image, after the view transform, as a PNG.
 Result<SavedSnapshot> write_snapshot_png(const SnapshotJob& job, const ColorManagement& color);
 
 } // namespace blush

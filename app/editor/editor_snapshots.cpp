@@ -20,9 +20,9 @@ std::string time_of_day() {
 Snapshot snapshot_of(EditorSnapshots::Shown shown) {
     Snapshot s;
     s.time = time_of_day();
-    s.pictures = std::move(shown.pictures);
-    // A denoised picture at reduced resolution is not saved as a layer.
-    if (s.pictures.denoised && s.pictures.denoised->divider != 1) s.pictures.denoised = nullptr;
+    s.images = std::move(shown.images);
+    // A denoised image at reduced resolution is not saved as a layer.
+    if (s.images.denoised && s.images.denoised->divider != 1) s.images.denoised = nullptr;
     s.project = std::move(shown.project);
     s.settings = shown.settings;
     s.imported = std::move(shown.imported);
@@ -51,11 +51,11 @@ void EditorSnapshots::finish_capture(UiState& ui, RenderSession& session) {
     if (!kept || kept->revision != keeping_->revision) return;
     Snapshot s = snapshot_of(*std::exchange(keeping_, std::nullopt));
     if (kept->frame) {
-        s.pictures.frame = kept->frame;
+        s.images.frame = kept->frame;
         s.error = std::move(kept->error);
         s.film = std::move(kept->film);
     }
-    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    s.thumbnail = thumbnail_of(*s.images.frame);
     const uint64_t id = ui.snapshots.add(std::move(s));
     const SnapshotPtr snapshot = ui.snapshots.find(id);
     if (ui.settings.snapshot_files)
@@ -88,8 +88,8 @@ bool EditorSnapshots::will_be_written(uint64_t id) const {
     return (writing_ && writing_id_ == id) || std::ranges::count(to_write_, id, &Writing::id) > 0;
 }
 
-void EditorSnapshots::make_room(UiState& ui) {
-    for (const SnapshotPtr& snapshot : store_.make_room(ui))
+void EditorSnapshots::free_memory(UiState& ui) {
+    for (const SnapshotPtr& snapshot : store_.free_memory(ui))
         if (!will_be_written(snapshot->id)) write(snapshot, ui, Why::room);
 }
 
@@ -157,9 +157,9 @@ void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {
                 const auto metadata = read_metadata(next.file);
                 if (!metadata) return metadata.error();
                 if (!is_snapshot(*metadata)) {
-                    Result<std::shared_ptr<PictureLayers>> picture = open_picture_layers(next.file);
-                    if (!picture) return picture.error();
-                    return next.panoramas_light && is_panorama(**picture) ? OpenAnswer() : OpenAnswer{{}, *std::move(picture)};
+                    Result<std::shared_ptr<ImageLayers>> image = open_image_layers(next.file);
+                    if (!image) return image.error();
+                    return next.panoramas_light && is_panorama(**image) ? OpenAnswer() : OpenAnswer{{}, *std::move(image)};
                 }
                 Result<OpenedSnapshot> opened = open_snapshot(next.file, open_scene);
                 if (!opened) return opened.error();
@@ -176,11 +176,11 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!result) return;
     opening_.reset();
     if (!restores_opened_) {
-        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->let_go();
+        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->unload();
         return;
     }
     if (!*result) return ui.toasts.fail(result->error().text());
-    if ((**result).picture) return show_picture(std::move((**result).picture), ui);
+    if ((**result).image) return show_image(std::move((**result).image), ui);
     if (!(**result).snapshot) return files.load_environment(opening_file_);
     const SnapshotPtr snapshot = add_to_strip(*std::move((**result).snapshot), ui);
     ui.snapshots.open = true;
@@ -190,11 +190,11 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
 }
 
 // Adds it to the strip and shows it in the comparison view.
-void EditorSnapshots::show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui) {
+void EditorSnapshots::show_image(std::shared_ptr<ImageLayers> layers, UiState& ui) {
     Snapshot s;
     s.name = layers->file.filename().string();
     s.time = time_of_day();
-    s.no_state = "It is a picture from another program: it has no scene to restore.";
+    s.no_state = "It is an image from another program: it has no scene to restore.";
     s.pinned = true;
     const size_t count = layers->layers.size();
     s.layers = std::move(layers);
@@ -209,7 +209,7 @@ void EditorSnapshots::show_picture(std::shared_ptr<PictureLayers> layers, UiStat
 SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {
     Snapshot& s = opened.snapshot;
     s.time = time_of_day();
-    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    s.thumbnail = thumbnail_of(*s.images.frame);
     s.film_in_file = s.film != nullptr;
     const uint64_t id = ui.snapshots.add(std::move(s));
     stateless_[id] = std::move(opened.metadata);
@@ -227,11 +227,11 @@ void EditorSnapshots::restore(const SnapshotPtr& snapshot, Document& document, U
         });
     }
     waiting_ = snapshot;
-    go_on(document, ui, files);
+    continue_restore(document, ui, files);
 }
 
 // Continues a restore: its scene is open.
-void EditorSnapshots::go_on(Document& document, UiState& ui, const EditorFiles& files) {
+void EditorSnapshots::continue_restore(Document& document, UiState& ui, const EditorFiles& files) {
     if (stateless_.contains(waiting_->id)) return compute_state(files);
     go_back(*std::exchange(waiting_, nullptr), document, ui);
 }
@@ -288,7 +288,7 @@ void EditorSnapshots::handle_requests(Document& document, UiState& ui, EditorFil
             continue;
         }
         view.use(*snapshot);
-        const bool there = snapshot->pictures.frame != nullptr;
+        const bool there = snapshot->images.frame != nullptr;
         switch (request.what) {
         case SnapshotRequest::What::save:
             if (there) write(snapshot, ui, Why::asked);
@@ -309,10 +309,10 @@ void EditorSnapshots::poll(bool opened, Document& document, UiState& ui, EditorF
     finish_opening(document, ui, files);
     finish_state(document, ui);
     store_.poll(ui);
-    make_room(ui);
+    free_memory(ui);
     if (!waiting_ || state_job_) return;
     if (opened && same_file(waiting_->scene_file, files.scene_file()))
-        go_on(document, ui, files);
+        continue_restore(document, ui, files);
     else if (!files.running())
         waiting_.reset(); // its scene could not be read; a toast has reported it
 }

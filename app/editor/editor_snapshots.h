@@ -24,16 +24,16 @@ public:
     EditorSnapshots(std::function<void()> wake, std::filesystem::path assets, std::function<void(std::function<void()>)> before_leaving)
         : wake_(wake), assets_(std::move(assets)), before_leaving_(std::move(before_leaving)), store_(std::move(wake)) {}
 
-    // Everything that defines the displayed picture; requires a frame in full resolution.
+    // Everything that defines the displayed image; requires a frame in full resolution.
     struct Shown {
         uint64_t revision = 0;
-        Pictures pictures;
+        Images images;
         DenoiseView view;
         Project project;
         RenderSettings settings;
         Scene imported;
         std::filesystem::path scene_file;
-        std::optional<PixelRect> frame = {}; // the camera's frame, if the picture extends beyond it
+        std::optional<PixelRect> frame = {}; // the camera's frame, if the image extends beyond it
     };
     // Adds it to the strip when the session has returned the samples, and saves it if the settings say so.
     void keep(Shown shown, RenderSession& session);
@@ -41,7 +41,7 @@ public:
     void save_png(const Shown& shown, const ColorManagement& color, const UiState& ui);
     // Reads the files that were in the strip when the scene was last closed, one after the other; unreadable ones are skipped.
     void load_strip(const UiState& ui, const std::filesystem::path& scene_file);
-    // Opens an EXR. A snapshot is added to the strip and its state is restored. A picture from another program is added to the
+    // Opens an EXR. A snapshot is added to the strip and its state is restored. An image from another program is added to the
     // strip with its layers and shown in the comparison. `panoramas_light`: a panorama becomes the environment instead.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light);
     // Executes requests of panels.
@@ -61,12 +61,12 @@ public:
     void finish_all();
 
 private:
-    // Either a snapshot or a picture from another program; not an environment.
+    // Either a snapshot or an image from another program; not an environment.
     struct OpenAnswer {
         std::optional<OpenedSnapshot> snapshot = {};
-        std::shared_ptr<PictureLayers> picture = {};
+        std::shared_ptr<ImageLayers> image = {};
     };
-    void show_picture(std::shared_ptr<PictureLayers> layers, UiState& ui);
+    void show_image(std::shared_ptr<ImageLayers> layers, UiState& ui);
     void finish_capture(UiState& ui, RenderSession& session);
     void finish_opening(Document& document, UiState& ui, EditorFiles& files);
     void finish_state(Document& document, UiState& ui);
@@ -74,11 +74,11 @@ private:
     enum class Why { asked, renamed, room };
     void write(const SnapshotPtr& snapshot, const UiState& ui, Why why);
     bool will_be_written(uint64_t id) const;
-    void make_room(UiState& ui);
+    void free_memory(UiState& ui);
     void read_next(const std::filesystem::path& open_scene);
     SnapshotPtr add_to_strip(OpenedSnapshot opened, UiState& ui);
     void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
-    void go_on(Document& document, UiState& ui, const EditorFiles& files);
+    void continue_restore(Document& document, UiState& ui, const EditorFiles& files);
     void compute_state(const EditorFiles& files);
     void go_back(const Snapshot& snapshot, Document& document, UiState& ui);
 

@@ -1,11 +1,11 @@
-// Measures errors that a picture cannot estimate itself, in the background: raw and denoised pictures against a reference;
-// without one, denoised pictures against later raw pictures. Limited to a fraction of the render time, plus once at the end.
+// Measures errors that an image cannot estimate itself, in the background: raw and denoised images against a reference;
+// without one, denoised images against later raw images. Limited to a fraction of the render time, plus once at the end.
 #pragma once
 
 #include "core/time_budget.h"
 #include "measure/convergence/convergence_runs.h"
 #include "measure/convergence/reference.h"
-#include "measure/metrics/picture_error.h"
+#include "measure/metrics/image_error.h"
 #include "render/session/published_frames.h"
 #include "ui/jobs/background_job.h"
 
@@ -20,14 +20,14 @@ public:
     // `wake` is called on another thread when a result is available.
     explicit ErrorMeasurement(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    // A new run begins: drops pending pictures of the last one.
+    // A new run begins: drops pending images of the last one.
     void begin(int run);
-    // The same run shows another picture: drops pending pictures.
-    void forget_pictures();
-    // Queues the pictures of a due point of the run; they are kept until measured. Only in full resolution.
+    // The same run shows another image: drops pending images.
+    void forget_images();
+    // Queues the images of a due point of the run; they are kept until measured. Only in full resolution.
     void add_raw(const FramePtr& frame);
-    void add_denoised(const DenoisedPtr& picture);
-    // Number of denoised pictures whose error is not in the run's record yet.
+    void add_denoised(const DenoisedPtr& image);
+    // Number of denoised images whose error is not in the run's record yet.
     size_t waiting(const ConvergenceRecord& record) const;
 
     // Call once per UI frame: adds results to the runs, and starts the next measurement against the run's `reference` or, without
@@ -37,10 +37,10 @@ public:
     double seconds() const { return budget_.spent(); }
 
 private:
-    // A denoised picture; oldest first.
+    // A denoised image; oldest first.
     struct Waiting {
-        DenoisedPtr picture;
-        int64_t measured_at = 0; // samples of the raw picture in its last measurement
+        DenoisedPtr image;
+        int64_t measured_at = 0; // samples of the raw image in its last measurement
     };
     struct Measured {
         ConvergencePoint point;

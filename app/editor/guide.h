@@ -17,7 +17,7 @@ std::string guide_address(const std::filesystem::path& folder, std::string_view 
 // Opens the page with xdg-open, which runs on by itself. Errors: the guide is not installed, there is no xdg-open.
 Result<void> open_guide(const std::filesystem::path& folder, std::string_view page);
 
-// Opens the page that a panel or the menu asked for (UiState::guide_page); a toast says why it cannot be opened.
+// Opens the page that a panel or the menu requested (UiState::guide_page); if that fails, a toast shows the reason.
 void open_requested_page(UiState& ui, const std::filesystem::path& folder);
 
 } // namespace blush

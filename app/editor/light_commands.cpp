@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-bool wears(const Scene& scene, Id<Node> id, Id<Material> material) {
+bool has_material(const Scene& scene, Id<Node> id, Id<Material> material) {
     const Mesh* mesh = scene.meshes.find(scene.nodes.find(id)->mesh);
     return mesh && std::ranges::count(mesh->parts, material, &MeshPart::material) > 0;
 }
@@ -25,7 +25,7 @@ std::vector<LightRow> selected_rows(PanelContext& c) {
     const auto selected = [&](const LightRow& row) {
         if (row.light) return std::ranges::count(lights, row.light) > 0;
         if (row.environment) return c.ui.environment_chosen();
-        return std::ranges::any_of(nodes, [&](Id<Node> id) { return wears(c.scene(), id, row.material); });
+        return std::ranges::any_of(nodes, [&](Id<Node> id) { return has_material(c.scene(), id, row.material); });
     };
     std::vector<LightRow> rows;
     for (const LightRows& group : light_rows(c.scene())) std::ranges::copy_if(group.rows, std::back_inserter(rows), selected);
@@ -83,7 +83,7 @@ void group_lights(PanelContext& c) {
 void toggle_light_mix(PanelContext& c) {
     toggle_instrument(c, "light_mix");
     LightMix mix = c.scene().mix;
-    if (!c.ui.light_mix.open || c.ui.light_mix.stays_off || mix.grouping != LightMix::Grouping::none) return;
+    if (!c.ui.light_mix.open || c.ui.light_mix.disabled_by_user || mix.grouping != LightMix::Grouping::none) return;
     mix.grouping = LightMix::Grouping::by_light;
     const Edit edit = SetMix{mix};
     c.apply({&edit, 1}, "Group lights for the mix");

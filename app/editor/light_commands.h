@@ -16,7 +16,7 @@ void toggle_solo(PanelContext& c);
 // Puts the selected lights into a new light group with an unused name.
 void group_lights(PanelContext& c);
 
-// Toggles the tool that places the selected light with a click in the picture.
+// Toggles the tool that places the selected light with a click in the image.
 void toggle_placing(PanelContext& c, PlacingBy by);
 // Opens the light mix, first with groups by light; or closes it.
 void toggle_light_mix(PanelContext& c);

@@ -1,4 +1,4 @@
-// The current light mix of a frame with light groups: applied to the displayed picture at once if gains are sufficient, independent of the
+// The current light mix of a frame with light groups: applied to the displayed image at once if gains are sufficient, independent of the
 // render session.
 #pragma once
 
@@ -17,7 +17,7 @@ public:
     void follow(const FramePtr& frame, const Document& document);
     // Null if there are no groups, or gains are not sufficient.
     const Mixing* mixing() const { return mixing_ ? &*mixing_ : nullptr; }
-    // True if this frame, shown with these gains, is the picture of the current mix.
+    // True if this frame, shown with these gains, is the image of the current mix.
     bool is_shown_by(const Frame& frame, const Gains& gains) const {
         return mixing_ && frame.light_groups == groups_ && gains == mixing_->gains;
     }

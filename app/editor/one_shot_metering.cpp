@@ -7,7 +7,7 @@
 namespace blush {
 
 void OneShotMetering::want(const Project& project, bool opening) {
-    // An environment chosen before the picture was metered belongs to the opening.
+    // An environment chosen before the image was metered belongs to the opening.
     due_ = Due{opening || (due_ && due_->opening), project.view.exposure_ev, project.scene.environment};
 }
 

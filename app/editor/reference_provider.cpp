@@ -85,7 +85,7 @@ bool ReferenceProvider::poll() {
     return true;
 }
 
-ReferenceStatus ReferenceProvider::news() const {
+ReferenceStatus ReferenceProvider::status() const {
     using State = ReferenceStatus::State;
     ReferenceStatus n;
     n.problem = problem_;

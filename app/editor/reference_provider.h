@@ -1,4 +1,4 @@
-// The reference for the live picture: found in the cache or rendered, both in the background.
+// The reference for the live image: found in the cache or rendered, both in the background.
 #pragma once
 
 #include "measure/convergence/reference.h"
@@ -14,7 +14,7 @@ namespace blush {
 
 class ReferenceProvider {
 public:
-    // The picture that a reference belongs to.
+    // The image that a reference belongs to.
     struct Subject {
         Scene scene;
         RenderSettings settings; // size of the film, scale 1
@@ -22,9 +22,9 @@ public:
 
     ReferenceProvider(std::function<void()> wake, unsigned threads) : wake_(std::move(wake)), threads_(threads) {}
 
-    // The picture has changed: drops its reference.
+    // The image has changed: drops its reference.
     void forget();
-    // Searches the cache, once per picture.
+    // Searches the cache, once per image.
     void find(const Subject& subject);
     // Renders one with `samples` per pixel, or doubles the samples of the current one. No effect while a job is running.
     void render(const Subject& subject, int64_t samples);
@@ -35,7 +35,7 @@ public:
     bool poll();
     bool renders() const { return job_ && rendering_ && !outdated_; }
     const std::shared_ptr<const Reference>& reference() const { return reference_; } // null: none
-    ReferenceStatus news() const;
+    ReferenceStatus status() const;
 
 private:
     struct Found {
@@ -48,7 +48,7 @@ private:
     unsigned threads_;
     std::shared_ptr<const Reference> reference_;
     bool looked_ = false, rendering_ = false;
-    bool outdated_ = false; // the running job belongs to a previous picture
+    bool outdated_ = false; // the running job belongs to a previous image
     std::string problem_;
     std::unique_ptr<BackgroundJob<Found>> job_;
 };

@@ -58,7 +58,7 @@ std::string note_of_preview(size_t textures, size_t shown) {
 
 bool has_our_settings(const ImportedScene& imported) { return imported.has_view || imported.render || imported.view; }
 
-// A file not written by Blush that has no light gets studio lighting, instead of a black picture; unless `--light` or
+// A file not written by Blush that has no light gets studio lighting, instead of a black image; unless `--light` or
 // `--environment` is given.
 std::optional<Scene> lit_at_opening(const ImportedScene& imported, const Scene& scene, const SceneOverrides& overrides) {
     if (overrides.light || overrides.environment || has_our_settings(imported) || world_bounds(scene).empty || has_light(scene)) return {};

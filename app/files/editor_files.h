@@ -74,7 +74,7 @@ public:
     void save(const std::filesystem::path& file, const Project& project);
     // Preview of the scene that is being opened, while its textures are loading: a separate document. Null: none.
     Document* preview() { return preview_ ? &*preview_ : nullptr; }
-    // What the preview lacks, for the picture.
+    // What the preview lacks, for the caption above the image.
     const std::string& preview_note() const { return preview_note_; }
     bool saving() const { return save_job_ != nullptr; }
     void load_environment(const std::filesystem::path& file);

@@ -61,7 +61,7 @@ void EditorSaving::ask_about_foreign_file() {
             } else if (choice == 1) {
                 save_as(files_.scene_file());
             } else {
-                go_on_ = {};
+                after_save_ = {};
             }
         });
 }
@@ -81,29 +81,29 @@ void EditorSaving::save_as(const std::filesystem::path& file) {
     if (!files_.saving()) files_.save(file, document_.project());
 }
 
-void EditorSaving::before_losing_edits(const std::string& doing, std::function<void()> go_on) {
-    if (!document_.modified()) return go_on();
+void EditorSaving::before_losing_edits(const std::string& doing, std::function<void()> then) {
+    if (!document_.modified()) return then();
     const std::string name = files_.scene_file().filename().string();
     ask({fmt::format("Save the changes to {}?", name), fmt::format("Otherwise they are lost by {}.", doing), {"Save", "Discard", "Cancel"}},
-        [this, go_on = std::move(go_on)](size_t choice) {
+        [this, then = std::move(then)](size_t choice) {
             if (choice == 1) {
                 autosave_.forget();
-                go_on();
+                then();
             } else if (choice == 0) {
-                go_on_ = go_on;
+                after_save_ = then;
                 save();
             }
         });
 }
 
-void EditorSaving::before_reloading(std::function<void(bool keep_edits)> go_on) {
-    if (!document_.modified()) return go_on(true);
+void EditorSaving::before_reloading(std::function<void(bool keep_edits)> then) {
+    if (!document_.modified()) return then(true);
     ask({fmt::format("Reload {} and keep your edits?", files_.scene_file().filename().string()),
          "Edits are reapplied to objects, materials and lights with the same name. On conflicts your edit is kept, and the "
          "import report lists it. Undo returns to the file's version.",
          {"Keep edits", "Discard edits", "Cancel"}},
-        [go_on = std::move(go_on)](size_t choice) {
-            if (choice < 2) go_on(choice == 0);
+        [then = std::move(then)](size_t choice) {
+            if (choice < 2) then(choice == 0);
         });
 }
 
@@ -127,24 +127,24 @@ void EditorSaving::poll(const EditorFiles::Finished& finished) {
     // The sidecar now belongs to this window.
     if (finished.recovered && recovering_) autosave_.adopt(recovering_->file);
     if (finished.opened) recovering_.reset();
-    if (finished.saved && go_on_) std::exchange(go_on_, {})();
+    if (finished.saved && after_save_) std::exchange(after_save_, {})();
     // The save has failed, or the file dialog was cancelled.
-    if (go_on_ && !files_.saving() && !ui_.browser && !ui_.question && ui_.files.empty()) go_on_ = {};
+    if (after_save_ && !files_.saving() && !ui_.browser && !ui_.dialog && ui_.files.empty()) after_save_ = {};
     if (const auto failed = autosave_.poll(document_, files_.imported(), files_.origin())) ui_.toasts.warn(failed->text());
 }
 
 void EditorSaving::poll_dialog() {
-    if (!ui_.question || !ui_.question->chosen) return;
-    const size_t choice = *ui_.question->chosen;
-    ui_.question.reset();
+    if (!ui_.dialog || !ui_.dialog->chosen) return;
+    const size_t choice = *ui_.dialog->chosen;
+    ui_.dialog.reset();
     std::exchange(answer_, {})(choice);
 }
 
-void EditorSaving::ask(Question question, std::function<void(size_t)> answer) {
+void EditorSaving::ask(ModalDialog dialog, std::function<void(size_t)> answer) {
     // Hides open popups, which would cover it.
     ui_.browser.reset();
     ui_.pixel.reset();
-    ui_.question = std::move(question);
+    ui_.dialog = std::move(dialog);
     answer_ = std::move(answer);
 }
 

@@ -20,11 +20,11 @@ public:
     void ask_for_file(const std::filesystem::path& proposed = {});
     // Handles the answer of the file browser.
     void save_as(const std::filesystem::path& file);
-    // Runs `go_on` at once if there are no unsaved edits, else after the user has saved or discarded them; never if the user
+    // Runs `then` at once if there are no unsaved edits, else after the user has saved or discarded them; never if the user
     // cancels. `doing`: for the message, for example "closing the window".
-    void before_losing_edits(const std::string& doing, std::function<void()> go_on);
+    void before_losing_edits(const std::string& doing, std::function<void()> then);
     // Asks whether to keep the edits, if there are any, and continues unless the user cancels.
-    void before_reloading(std::function<void(bool keep_edits)> go_on);
+    void before_reloading(std::function<void(bool keep_edits)> then);
     // Offers the sidecar of a crash for this scene or, with an empty path, for any scene.
     void offer_recovery(const std::filesystem::path& scene);
 
@@ -35,7 +35,7 @@ public:
     void end() { autosave_.forget(); }
 
 private:
-    void ask(Question question, std::function<void(size_t)> answer);
+    void ask(ModalDialog dialog, std::function<void(size_t)> answer);
     void ask_about_foreign_file();
     std::filesystem::path name_beside_original() const;
 
@@ -45,7 +45,7 @@ private:
     std::filesystem::path assets_;
     Autosave autosave_;
     std::function<void(size_t)> answer_;
-    std::function<void()> go_on_; // called after a successful save
+    std::function<void()> after_save_; // called after a successful save
     std::optional<RecoveryFile> recovering_;
 };
 

@@ -61,8 +61,8 @@ void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
         files.load_ies(file, document, ui);
     else
         ui.toasts.fail(file.filename().string() +
-                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a picture "
-                       "(.exr), nor an IES file (.ies), nor a convergence table (.csv)");
+                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a rendered "
+                       "image (.exr), nor an IES file (.ies), nor a convergence table (.csv)");
 }
 
 } // namespace blush

@@ -31,20 +31,20 @@ void SnapshotStore::poll(UiState& ui) {
         return ui.toasts.warn(s.name + " cannot be read and is rendered from the start", result->error().text());
     }
     Snapshot& read = (**result).snapshot;
-    s.pictures = std::move(read.pictures);
+    s.images = std::move(read.images);
     s.error = std::move(read.error);
     s.film = std::move(read.film);
     s.place = Snapshot::Place::memory;
     ui.snapshots.use(s);
 }
 
-std::vector<SnapshotPtr> SnapshotStore::make_room(UiState& ui) {
+std::vector<SnapshotPtr> SnapshotStore::free_memory(UiState& ui) {
     std::vector<SnapshotPtr> unwritten;
-    for (const SnapshotPtr& s : beyond_memory(ui.snapshots, size_t(ui.settings.snapshot_memory) << 20)) {
+    for (const SnapshotPtr& s : snapshots_to_unload(ui.snapshots, size_t(ui.settings.snapshot_memory) << 20)) {
         if (s->file.empty())
             unwritten.push_back(s);
         else if (!s->film || s->film_in_file)
-            s->let_go();
+            s->unload();
         else
             s->film = nullptr;
     }

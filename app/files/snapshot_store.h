@@ -16,11 +16,11 @@ class SnapshotStore {
 public:
     explicit SnapshotStore(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    // True if pictures and samples are in memory, or lost. Otherwise starts reading them from the file.
+    // True if images and samples are in memory, or lost. Otherwise starts reading them from the file.
     bool has(const SnapshotPtr& snapshot);
     // Unloads snapshots above the memory limit that are saved, and returns those that must be saved first. If the user has
     // disabled samples in files, they are dropped with a message.
-    std::vector<SnapshotPtr> make_room(UiState& ui);
+    std::vector<SnapshotPtr> free_memory(UiState& ui);
     // Applies finished reads.
     void poll(UiState& ui);
     // The file being read; null: none.

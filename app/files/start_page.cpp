@@ -14,7 +14,7 @@ std::vector<std::string> StartPage::demos() const {
     return files;
 }
 
-void StartPage::keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view,
+void StartPage::save_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view,
                                const ColorManagement& color, bool leaving) {
     constexpr int64_t enough_samples = 16;
     if (!frame || frame->width <= 0 || frame->divider != 1 || scene.empty() || is_below(scene, assets_)) return;

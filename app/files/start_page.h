@@ -17,9 +17,9 @@ public:
     std::vector<std::string> demos() const;
     // Thumbnail of a scene or image file; 0: none (yet).
     ImTextureID thumbnail(const std::string& file) { return thumbnails_.of(file); }
-    // Saves a thumbnail of the scene when its picture is good enough, and, with `leaving`, of the last picture. Failures are
+    // Saves a thumbnail of the scene when its image is good enough, and, with `leaving`, of the last image. Failures are
     // ignored: it is a cache.
-    void keep_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
+    void save_thumbnail(const std::filesystem::path& scene, const FramePtr& frame, const ViewSettings& view, const ColorManagement& color,
                         bool leaving = false);
 
 private:

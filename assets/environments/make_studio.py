@@ -40,7 +40,7 @@ def radiance(azimuth, elevation):
     return (grey[0] + warm * 1.02 + cool * 0.98, grey[1] + warm + cool, grey[2] + warm * 0.97 + cool * 1.03)
 
 
-def picture():
+def image():
     rows = []
     total = weight = 0.0
     for y in range(HEIGHT):
@@ -81,7 +81,7 @@ def encoded(values):
 
 def content():
     out = bytearray(f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {HEIGHT} +X {WIDTH}\n".encode())
-    for row in picture():
+    for row in image():
         pixels = [rgbe(texel) for texel in row]
         out += bytes((2, 2, WIDTH >> 8, WIDTH & 255))
         for channel in range(4):

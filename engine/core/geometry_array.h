@@ -1,4 +1,4 @@
-// Arrays of geometry: vectors whose elements may lie in memory that the owner chose, so that large ones are read without a copy.
+// Arrays of geometry: vectors whose elements may lie in memory of the owner's choice, so that large ones are read without a copy.
 #pragma once
 
 #include <cstddef>

@@ -40,7 +40,7 @@ inline std::string without_sign_of_zero(std::string text) {
     return text.erase(sign, 1);
 }
 
-// Number with a sign and so many decimals: "+0.25", "-1.00", "0.00".
+// Number with a sign and this many decimals: "+0.25", "-1.00", "0.00".
 inline std::string signed_number(double value, int decimals) {
     char text[400]; // the largest double has 309 digits before its point
     std::snprintf(text, sizeof text, "%+.*f", decimals, value);

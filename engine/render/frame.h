@@ -96,7 +96,7 @@ struct Frame {
     double first_image_seconds = 0;                      // from submit to the first published frame of this revision
     double samples_per_second = 0;                       // whole-image samples per pixel per second, over the last batch
     std::string kernel;                                  // e.g. "v4/plain"
-    std::shared_ptr<const FeatureReport> feature_report; // feature report: what was built for it and what was left out
+    std::shared_ptr<const FeatureReport> feature_report; // the features that were compiled for it, and the omitted ones
 };
 
 using FramePtr = std::shared_ptr<const Frame>;

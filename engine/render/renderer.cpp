@@ -407,7 +407,7 @@ void Renderer::resolve(Frame& frame) {
     frame.light_groups = s.groups;
     frame.group_names = s.mixing.names;
     frame.divider = s.divider;
-    frame.whole = s.settings.region == PictureRegion{};
+    frame.whole = s.settings.region == ImageRegion{};
     frame.samples = s.samples;
     frame.rays = s.rays;
     frame.stages = s.stages;

@@ -13,7 +13,7 @@ RenderSettings recommended_settings() {
 }
 
 RenderSettings effective_settings(RenderSettings settings) {
-    settings.adaptive = settings.adaptive && settings.region == PictureRegion{};
+    settings.adaptive = settings.adaptive && settings.region == ImageRegion{};
     return settings;
 }
 

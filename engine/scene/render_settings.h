@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "scene/picture_region.h"
+#include "scene/image_region.h"
 
 #include <cstdint>
 #include <string>
@@ -63,7 +63,7 @@ struct RenderSettings {
     bool adaptive = false;         // adaptive sampling; spp is then the mean. Requires first_sample = 0
     int reuse = 1;                 // path reuse: pixels that share their second path vertices: 4, 8, 16, 1 (off), or reuse_auto
     Clamp clamp = {};
-    PictureRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty
+    ImageRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty
     bool operator==(const RenderSettings&) const = default;
 };
 

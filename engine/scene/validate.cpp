@@ -43,9 +43,9 @@ public:
     void texture(std::string_view field, const TextureRef& ref) {
         for (const float c : {ref.offset.x, ref.offset.y, ref.scale.x, ref.scale.y, ref.rotation_radians}) finite(field, c);
     }
-    void region(std::string_view field, const PictureRegion& r) {
+    void region(std::string_view field, const ImageRegion& r) {
         is(r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0 && r.x + r.width <= 1 + 1e-6f && r.y + r.height <= 1 + 1e-6f,
-           fmt::format("{} must be a rectangle within the picture", field));
+           fmt::format("{} must be a rectangle within the image", field));
     }
     void lens(const Lens& lens) {
         is(lens.yfov_radians > 0 && lens.yfov_radians < pi,

@@ -3,8 +3,8 @@
 
 #include "core/result.h"
 #include "core/vec.h"
+#include "scene/image_region.h"
 #include "scene/lights/light_meter.h"
-#include "scene/picture_region.h"
 
 #include <cstdint>
 #include <optional>
@@ -43,8 +43,8 @@ struct ViewSettings {
     AutoExposure auto_exposure = AutoExposure::off;
     Vec3 white{1, 1, 1}; // white balance: scene-linear colour that is shown neutral
     FalseColor false_color = {};
-    bool background_as_it_is = false;           // backdrop pixels are only encoded: no exposure, white balance, look or view transform
-    std::optional<PictureRegion> measured = {}; // region whose statistics are shown
+    bool background_as_it_is = false;         // backdrop pixels are only encoded: no exposure, white balance, look or view transform
+    std::optional<ImageRegion> measured = {}; // region whose statistics are shown
     std::vector<LightMeter> meters = {};
     std::optional<float> frame_aspect = {}; // width / height of the camera frame; 0: no frame; empty: the camera's own
     bool lock_camera = false;               // navigation moves the camera that the view looks through

@@ -63,9 +63,9 @@ F table_factor(const ProfileTables& tables, const Int<F>& profile, const F& x, c
     const F turn = atan2_turns(y, x);
     // Rounding must not exceed a table's last angle.
     const F from_ahead = min(atan2_turns(F(sqrt(x * x + y * y)), ahead), F(0.5f));
-    const F aside = max(min(atan2_turns(x, F(sqrt(y * y + ahead * ahead))), F(0.25f)), F(-0.25f));
+    const F lateral = max(min(atan2_turns(x, F(sqrt(y * y + ahead * ahead))), F(0.25f)), F(-0.25f));
     const F vertical = select(polar_x, atan2_turns(y, ahead), from_ahead);
-    const F horizontal = select(polar_x, aside, min(select(turn < F(0.f), turn + 1.f, turn), F(1.f)));
+    const F horizontal = select(polar_x, lateral, min(select(turn < F(0.f), turn + 1.f, turn), F(1.f)));
     const TablePlace<F> v = place_in_table<F>(tables.numbers, first, verticals, vertical);
     const TablePlace<F> h = place_in_table<F>(tables.numbers, Int<F>(first + verticals), horizontals, horizontal);
     const Int<F> values = first + verticals + horizontals;

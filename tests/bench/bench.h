@@ -16,19 +16,19 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<BenchScene> scenes;
-    unsigned threads = 2;                             // the largest number that is measured
-    int rounds = 9;                                   // of each interleaved comparison; medians are reported
-    int edits = 40;                                   // of each kind
-    int reference_samples = 4096;                     // of the reference images for errors
-    std::filesystem::path cache;                      // folder that caches reference images; empty: no cache
-    std::string variant;                              // the only variant of path reuse and adaptive sampling to run; empty: all
-    int64_t max_samples = 64;                         // per pixel, maximum of a series
-    double max_seconds = 10;                          // after an edit
-    std::vector<std::filesystem::path> peer_pictures; // JSON of another renderer's pictures, for the case "quality"
-    std::string only;                                 // part of the names of the scenes to measure
-    std::filesystem::path scene_folder;               // of the peer comparison; empty: not given
-    std::string against;                              // another build of blush, which whole processes are compared with; empty: none
-    bool quick = false;                               // for testing the benchmark, not for figures
+    unsigned threads = 2;                           // the largest number that is measured
+    int rounds = 9;                                 // of each interleaved comparison; medians are reported
+    int edits = 40;                                 // of each kind
+    int reference_samples = 4096;                   // of the reference images for errors
+    std::filesystem::path cache;                    // folder that caches reference images; empty: no cache
+    std::string variant;                            // the only variant of path reuse and adaptive sampling to run; empty: all
+    int64_t max_samples = 64;                       // per pixel, maximum of a series
+    double max_seconds = 10;                        // after an edit
+    std::vector<std::filesystem::path> peer_images; // JSON of another renderer's images, for the case "quality"
+    std::string only;                               // part of the names of the scenes to measure
+    std::filesystem::path scene_folder;             // of the peer comparison; empty: not given
+    std::string against;                            // another build of blush, which whole processes are compared with; empty: none
+    bool quick = false;                             // for testing the benchmark, not for figures
 };
 
 Json run_rate(const Options& options);
@@ -46,7 +46,7 @@ Json run_many_lights(const Options& options);
 Json run_mix(const Options& options);
 Json run_textures(const Options& options);
 Json run_time_slider(const Options& options);
-Json run_shown_pictures(const Options& options);
+Json run_image_quality(const Options& options);
 Json run_quality(const Options& options);
 
 using Clock = std::chrono::steady_clock;

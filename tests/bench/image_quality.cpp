@@ -6,7 +6,7 @@
 #include "measure/metrics/metrics.h"
 #include "render/denoise/denoiser.h"
 #include "render/renderer.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 
 #include <fmt/format.h>
 
@@ -121,7 +121,7 @@ void render_series(const BenchScene& scene, const Variant& variant, uint32_t see
 
 } // namespace
 
-Json run_shown_pictures(const Options& options) {
+Json run_image_quality(const Options& options) {
     Json result;
     Denoiser denoiser(weights_folder(), options.threads);
     for (const BenchScene& scene : options.scenes) {
@@ -134,8 +134,8 @@ Json run_shown_pictures(const Options& options) {
                 render_series(scene, variant, uint32_t(seed), reference, denoiser, options, figures, seconds);
             Json& of_variant = result[scene.name()][variant.name];
             of_variant["core_seconds"] = rounded(median(seconds));
-            for (const auto& [count, pictures] : figures)
-                for (const auto& [name, f] : pictures)
+            for (const auto& [count, images] : figures)
+                for (const auto& [name, f] : images)
                     of_variant[fmt::format("{} spp", count)][name] = {{"flip", mean_and_error(f.flip)},
                                                                       {"relmse", mean_and_error(f.relmse)}};
         }

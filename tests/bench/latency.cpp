@@ -20,7 +20,7 @@ Json measure(const BenchScene& scene, const Options& options) {
         Scene edited = scene.scene;
         std::vector<Response> responses;
         for (int step = 1; step <= options.edits; ++step) {
-            let_it_work(random);
+            render_for_a_while(random);
             kind.apply(edited, step);
             const std::optional<Response> response = probe.measure(edited, settings);
             if (!response) return {{"scene", scene.name()}, {"failed", kind.name}};

@@ -38,7 +38,7 @@ std::optional<Response> LatencyProbe::measure(const Scene& scene, const RenderSe
     return response_;
 }
 
-void let_it_work(std::mt19937& random) {
+void render_for_a_while(std::mt19937& random) {
     std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(20, 120)(random)));
 }
 

@@ -18,7 +18,7 @@ struct Response {
 };
 
 // Lets the session refine for a random time.
-void let_it_work(std::mt19937& random);
+void render_for_a_while(std::mt19937& random);
 // `responses` must not be empty.
 Json figures_of(const std::vector<Response>& responses);
 

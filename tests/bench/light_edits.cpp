@@ -162,7 +162,7 @@ Json measure(const LitScene& lit, const Options& options) {
         if (!probe.measure(lit.scene, window_settings())) return {{"failed", edit.name}}; // takes the last edit back
         std::vector<Response> responses;
         for (int step = 1; step <= options.edits; ++step) {
-            let_it_work(random);
+            render_for_a_while(random);
             Scene edited = lit.scene;
             edit.apply(edited, step);
             const std::optional<Response> response = probe.measure(edited, window_settings());

@@ -40,7 +40,7 @@ constexpr Case cases[]{
      run_big_scenes},
     {{"textures", "Loading 64 textures and an environment map; cost and benefit of filtering"}, run_textures},
     {{"time", "Time from a step of the time slider to the first image"}, run_time_slider},
-    {{"pictures", "FLIP and relMSE of raw and denoised pictures, with and without path reuse and adaptive sampling"}, run_shown_pictures},
+    {{"image_quality", "FLIP and relMSE of raw and denoised images, with and without path reuse and adaptive sampling"}, run_image_quality},
     {{"quality", "FLIP and relMSE of what is on the screen at times after an edit, raw and denoised"}, run_quality},
 };
 
@@ -99,18 +99,18 @@ int run(int argc, char** argv) {
                    "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", options.only, "Scenes whose file name contains this");
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
-    app.add_option("--seeds", options.rounds, "Seeds of each series of pictures, rounds of other comparisons")
+    app.add_option("--seeds", options.rounds, "Seeds of each series of images, rounds of other comparisons")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    app.add_option("--spp", options.max_samples, "Largest number of samples per pixel in a series of pictures")->capture_default_str();
+    app.add_option("--spp", options.max_samples, "Largest number of samples per pixel in a series of images")->capture_default_str();
     app.add_option("--variant", options.variant,
-                   "The only variant of the case \"pictures\": plain, reuse, adaptive or \"reuse and adaptive\"");
-    app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of pictures that errors are measured against")
+                   "The only variant of the case \"image_quality\": plain, reuse, adaptive or \"reuse and adaptive\"");
+    app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of images that errors are measured against")
         ->capture_default_str();
-    app.add_option("--cache", options.cache, "Folder that keeps the reference pictures of the cases \"pictures\" and \"quality\"");
+    app.add_option("--cache", options.cache, "Folder that keeps the reference images of the cases \"image_quality\" and \"quality\"");
     app.add_option("--longest", options.max_seconds, "Seconds after an edit up to which the case \"quality\" measures")
         ->capture_default_str();
-    app.add_option("--peer", options.peer_pictures, "JSON of tests/bench/quality/cycles_pictures.py, for the case \"quality\"")
+    app.add_option("--peer", options.peer_images, "JSON of tests/bench/quality/cycles_images.py, for the case \"quality\"")
         ->check(CLI::ExistingFile);
     app.add_option("--plot", plot, "SVG file for the chart of the case \"quality\"");
     app.add_option("--from", earlier, "JSON of an earlier run, to print or plot instead of measuring");

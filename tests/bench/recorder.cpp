@@ -4,7 +4,7 @@
 
 #include "core/time_budget.h"
 #include "measure/convergence/convergence_runs.h"
-#include "measure/metrics/picture_error.h"
+#include "measure/metrics/image_error.h"
 #include "render/session/render_session.h"
 
 #include <condition_variable>

@@ -5,7 +5,7 @@
 #include "core/files.h"
 #include "io/gltf/read/import.h"
 #include "io/image/image_io.h"
-#include "measure/stability/picture.h"
+#include "measure/stability/rendered_image.h"
 #include "measure/stability/scenes.h"
 #include "render/renderer.h"
 
@@ -139,7 +139,7 @@ Scene textured_room(float half) {
     std::vector<Vec3> texels;
     for (int i = 0; i < 64 * 64; ++i) texels.push_back((i / 8 + i / 512) % 2 ? Vec3{0.8f, 0.7f, 0.6f} : Vec3{0.1f, 0.2f, 0.3f});
     Material material = stability::lambert(1);
-    material.base_color_texture.texture = stability::add_texture(scene, stability::float_picture(64, 64, texels), Texture::Filter::linear);
+    material.base_color_texture.texture = stability::add_texture(scene, stability::float_image(64, 64, texels), Texture::Filter::linear);
     material.base_color_texture.scale = {half / 4, half / 4};
     stability::place(scene, stability::cube(true), material, stability::at({0, 0, 0}, half));
     Light bulb;
@@ -149,9 +149,9 @@ Scene textured_room(float half) {
     return scene;
 }
 
-double error_squared(const stability::Picture& picture) {
+double error_squared(const stability::RenderedImage& image) {
     double sum = 0;
-    for (const Vec3d& e : picture.errors) sum += e.x * e.x + e.y * e.y + e.z * e.z;
+    for (const Vec3d& e : image.errors) sum += e.x * e.x + e.y * e.y + e.z * e.z;
     return sum;
 }
 
@@ -169,7 +169,7 @@ Json measure_filtering(const char* name, const Scene& scene, const Options& opti
         const double with = seconds(filtered);
         ratios.push_back(with / seconds(points));
     }
-    const double variance_left = error_squared(stability::picture_of(filtered)) / error_squared(stability::picture_of(points));
+    const double variance_left = error_squared(stability::image_of(filtered)) / error_squared(stability::image_of(points));
     return {{"scene", name},
             {"time_over_unfiltered", rounded(median(ratios))},
             {"time_quartiles", {rounded(quantile(ratios, 0.25)), rounded(quantile(ratios, 0.75))}},

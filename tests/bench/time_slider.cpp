@@ -81,7 +81,7 @@ Scene skinned_net(uint32_t n) {
     return stage.finished();
 }
 
-Scene still_but_one(uint32_t n) {
+Scene with_one_animated_object(uint32_t n) {
     Stage stage;
     stage.show(stage.mesh(net(n)), {0, 0, 0});
     stage.swing(stage.show(stage.mesh(net(10)), {0, 0.5f, 0}));
@@ -134,7 +134,7 @@ Json run_time_slider(const Options& options) {
             {"skinned_100k", measure(skinned_net(224), options)},
             {"skinned_1m", measure(skinned_net(708), options)},
             {"skinned_1m_parts", skin_parts(708, options)},
-            {"still_1m_and_one_node", measure(still_but_one(708), options)}};
+            {"still_1m_and_one_node", measure(with_one_animated_object(708), options)}};
 }
 
 } // namespace blush::bench

@@ -82,18 +82,18 @@ TEST(WhiteBalance, IsAppliedBeforeTheView) {
     for (const float c : shown) EXPECT_NEAR(c, srgb_encoded(y), invisible);
 }
 
-std::vector<float> picture(std::initializer_list<std::pair<int, float>> runs) {
+std::vector<float> image(std::initializer_list<std::pair<int, float>> runs) {
     std::vector<float> rgb;
     for (const auto& [count, value] : runs) rgb.insert(rgb.end(), size_t(count) * 3, value);
     return rgb;
 }
 
 TEST(ExposureMeter, AverageBringsTheGeometricMeanToMiddleGrey) {
-    EXPECT_NEAR(average_exposure(picture({{100, 0.18f}}), 3), 0, 1e-6);
-    EXPECT_NEAR(average_exposure(picture({{100, 0.72f}}), 3), -2, 1e-6);
-    EXPECT_NEAR(average_exposure(picture({{50, 0.18f * 16}, {50, 0.18f / 4}}), 3), -1, 1e-5); // (4 - 2) / 2 stops above grey
-    EXPECT_NEAR(average_exposure(picture({{50, 0.36f}, {70, 0}, {10, nan}, {10, -1}}), 3), -1, 1e-6) << "black pixels are ignored";
-    EXPECT_EQ(average_exposure(picture({{10, 0}}), 3), 0);
+    EXPECT_NEAR(average_exposure(image({{100, 0.18f}}), 3), 0, 1e-6);
+    EXPECT_NEAR(average_exposure(image({{100, 0.72f}}), 3), -2, 1e-6);
+    EXPECT_NEAR(average_exposure(image({{50, 0.18f * 16}, {50, 0.18f / 4}}), 3), -1, 1e-5); // (4 - 2) / 2 stops above grey
+    EXPECT_NEAR(average_exposure(image({{50, 0.36f}, {70, 0}, {10, nan}, {10, -1}}), 3), -1, 1e-6) << "black pixels are ignored";
+    EXPECT_EQ(average_exposure(image({{10, 0}}), 3), 0);
     EXPECT_EQ(average_exposure({}, 3), 0);
 }
 
@@ -108,19 +108,19 @@ TEST(CameraExposure, ShowsTheMeteredLuminanceAsMiddleGrey) {
 }
 
 TEST(ExposureMeter, HighlightsBringsThe99thPercentileToWhite) {
-    EXPECT_NEAR(highlight_exposure(picture({{970, 0.1f}, {30, 8}}), 3), -3, 1e-6);
-    EXPECT_NEAR(highlight_exposure(picture({{995, 0.25f}, {5, 1000}}), 3), 2, 1e-6) << "half a per cent of pixels is ignored";
+    EXPECT_NEAR(highlight_exposure(image({{970, 0.1f}, {30, 8}}), 3), -3, 1e-6);
+    EXPECT_NEAR(highlight_exposure(image({{995, 0.25f}, {5, 1000}}), 3), 2, 1e-6) << "half a per cent of pixels is ignored";
     EXPECT_EQ(highlight_exposure({}, 4), 0);
 }
 
 TEST(ExposureMeter, RangeLeavesOutOnePerCentAtEitherEnd) {
-    const LuminanceRange range = luminance_range(picture({{5, 1e-6f}, {500, 2}, {490, 30}, {5, 1e6f}}), 3);
+    const LuminanceRange range = luminance_range(image({{5, 1e-6f}, {500, 2}, {490, 30}, {5, 1e6f}}), 3);
     EXPECT_NEAR(range.low, 2, 1e-6);
     EXPECT_NEAR(range.high, 30, 1e-5);
-    EXPECT_EQ(luminance_range(picture({{5, 0}}), 3).high, 0);
+    EXPECT_EQ(luminance_range(image({{5, 0}}), 3).high, 0);
 }
 
-TEST(ExposureMeter, ReadsRgbaAndLargePicturesAlike) {
+TEST(ExposureMeter, ReadsRgbaAndLargeImagesAlike) {
     EXPECT_NEAR(average_exposure(std::vector<float>{0.36f, 0.36f, 0.36f, 1, 0.36f, 0.36f, 0.36f, 0}, 4), -1, 1e-6);
     std::vector<float> large;
     std::mt19937 rng(3);

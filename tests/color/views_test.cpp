@@ -65,7 +65,7 @@ TEST(ColorViews, AcesRisesFromBlackToWhiteAndKeepsGreysGrey) {
         }
         EXPECT_LT(show(color, display, "ACES SDR", grey(0))[0], 1.0f / 255); // no visible lift of black
         EXPECT_GT(before, 254.0f / 255);                                     // white is reached
-        // A tone curve, not a clip: one stop above diffuse white is still told from two.
+        // A tone curve, not a clip: one stop above diffuse white still differs from two stops.
         EXPECT_LT(show(color, display, "ACES SDR", grey(2))[0] + 2.0f / 255, show(color, display, "ACES SDR", grey(4))[0]);
     }
 }

@@ -18,7 +18,7 @@
 namespace blush::TEST_FILE {
 namespace {
 
-void pause_a_little() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
+void sleep_briefly() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
 TEST(TaskQueue, RunEachTaskOnce) {
     for (const unsigned threads : {0u, 1u, 2u, 7u})
@@ -38,7 +38,7 @@ TEST(TaskQueue, RunLargeTasksOneAtATime) {
     TaskQueue helpers(4);
     helpers.begin(std::vector<int64_t>(50, 11), 10, [&](size_t) {
         most = std::max(most.load(), ++at_once);
-        pause_a_little();
+        sleep_briefly();
         --at_once;
     });
     helpers.finish();
@@ -101,7 +101,7 @@ TEST(TaskQueue, InheritThePriority) {
 
 TEST(TaskQueue, InheritTheFloatingPointMode) {
     // Uses a separate thread that flushes denormals to zero.
-    std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { pause_a_little(); }); }).join();
+    std::thread([] { Workers(4, false).for_each(100, {}, [](int64_t, unsigned) { sleep_briefly(); }); }).join();
     std::atomic<int> flushed = 0;
     TwoThreads threads;
     std::thread([&] {

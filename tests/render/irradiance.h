@@ -2,7 +2,7 @@
 #pragma once
 
 #include "measure/stability/irradiance.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {

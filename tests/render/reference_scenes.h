@@ -1,7 +1,7 @@
 // Scenes of the stored references, shared by the tool that renders them and the test that compares with them.
 #pragma once
 
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test {
@@ -29,7 +29,7 @@ inline std::string coverage_reference_file(const std::string& scene) {
 }
 
 struct Reference {
-    Picture mean;       // with the standard errors of its pixels
+    RenderedImage mean; // with the standard errors of its pixels
     double renders = 0; // number of renders in the mean
 };
 // Throws if the file cannot be read.

@@ -18,10 +18,10 @@ RenderSettings test_settings(const std::string& scene) {
 
 // The error of a single render is that of the reference times the square root of the number of renders, at the same number of samples; a
 // render with more scatter uses its own error.
-testing::AssertionResult looks_like(const Picture& picture, const Reference& reference, int64_t spp) {
+testing::AssertionResult looks_like(const RenderedImage& image, const Reference& reference, int64_t spp) {
     const double renders = reference.renders * double(reference_spp) / double(spp);
-    std::vector<Measured> seen = picture.blocks(block, block), expected = reference.mean.blocks(block, block);
-    seen.push_back(picture.whole());
+    std::vector<Measured> seen = image.blocks(block, block), expected = reference.mean.blocks(block, block);
+    seen.push_back(image.whole());
     expected.push_back(reference.mean.whole());
     for (size_t i = 0; i < std::min(seen.size(), expected.size()); ++i) {
         const Vec3d usual = expected[i].error * std::sqrt(renders);

@@ -4,7 +4,7 @@
 #include "io/image/ies.h"
 #include "io/project/scene_hash.h"
 #include "tests/render/scenes.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/process.h"
 #include "tests/support/random_edits.h"
 #include "tests/support/sample_project.h"
@@ -18,11 +18,11 @@
 namespace blush::test::TEST_FILE {
 namespace {
 
-Frame picture(const Project& project) {
+Frame rendered(const Project& project) {
     RenderSettings settings = project.render;
     settings.width = 48;
     settings.height = 27;
-    return fresh_picture(project.scene, settings, 2);
+    return fresh_image(project.scene, settings, 2);
 }
 
 TEST(Saved, ScenesRenderBitForBitAsBefore) {
@@ -41,7 +41,7 @@ TEST(Saved, ScenesRenderBitForBitAsBefore) {
             const auto loaded = import_gltf(file);
             ASSERT_TRUE(loaded) << loaded.error().text();
             const Project again{loaded->scene, loaded->render.value_or(RenderSettings{}), loaded->view.value_or(ViewSettings{})};
-            EXPECT_TRUE(same_picture(picture(project), picture(again))) << file;
+            EXPECT_TRUE(same_pixels(rendered(project), rendered(again))) << file;
         }
     }
 }
@@ -94,7 +94,7 @@ Scene desk() {
         scene.nodes.add(node);
     }
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_image(8, 4, 3, 0.3f);
+    scene.environment.image = uniform_image(8, 4, 3, 0.3f);
     scene.environment.intensity = 0.7f;
     scene.environment.rotation_degrees = 33;
     scene.mix.grouping = LightMix::Grouping::by_hand;
@@ -123,7 +123,7 @@ TEST(Saved, EveryKindOfLightRendersBitForBitAsBefore) {
         const auto loaded = import_gltf(file);
         ASSERT_TRUE(loaded) << loaded.error().text();
         EXPECT_EQ(loaded->scene.lights.size(), 8u);
-        EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}}))) << file;
+        EXPECT_TRUE(same_pixels(rendered(project), rendered({loaded->scene, {}, {}}))) << file;
     }
 }
 
@@ -155,7 +155,7 @@ std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
     ball.mesh = scene.meshes.add({"ball", {{std::make_shared<const Geometry>(std::move(g)), scene.materials.add(steel)}}});
     scene.nodes.add(ball);
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_image(8, 4, 3, 0.3f);
+    scene.environment.image = uniform_image(8, 4, 3, 0.3f);
     scene.view.position = {0, 0, 4};
     const std::string file = folder / "ball.gltf";
     const auto saved = save_gltf(origin, {scene, {}, {}}, file);
@@ -173,11 +173,11 @@ TEST(Saved, TangentsAfterAnEditAreThoseOfTheReopenedFile) {
     const auto geometry_of = [](const Scene& scene) { return scene.meshes.begin()->value.parts[0].geometry; };
     Project project{original->scene, {}, {}};
     EXPECT_TRUE(geometry_of(project.scene)->tangents.empty());
-    const Frame before = picture(project);
+    const Frame before = rendered(project);
     auto [id, material] = *project.scene.materials.begin();
     material.anisotropy = 0.9f;
     project = *blush::apply(project, SetMaterial{id, material});
-    EXPECT_FALSE(same_picture(picture(project), before));
+    EXPECT_FALSE(same_pixels(rendered(project), before));
 
     const std::string file = folder / "stretched.gltf";
     const auto saved = save_gltf(original->origin, project, file);
@@ -187,7 +187,7 @@ TEST(Saved, TangentsAfterAnEditAreThoseOfTheReopenedFile) {
     EXPECT_FALSE(geometry_of(loaded->scene)->tangents.empty());
     const size_t vertices = geometry_of(project.scene)->positions.size();
     EXPECT_GT(geometry_of(loaded->scene)->positions.size(), vertices) << "vertices on the mirror line are split";
-    EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}})));
+    EXPECT_TRUE(same_pixels(rendered(project), rendered({loaded->scene, {}, {}})));
 }
 
 ImagePtr slanted_normal_map() {
@@ -216,11 +216,11 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
     ASSERT_TRUE(geometry_of(bumpy->scene)->generated_tangents);
     EXPECT_EQ(scene_hash(bumpy->scene), scene_hash(project.scene)) << "generated tangents are not part of the hash";
     project.scene = bumpy->scene;
-    const Frame first = picture(project);
+    const Frame first = rendered(project);
     for (const int set : {1, 5, 0}) { // 5: which it does not have
         material.normal_texture.uv_set = uint8_t(set);
         project = *blush::apply(project, SetMaterial{id, material});
-        EXPECT_EQ(same_picture(picture(project), first), set == 0);
+        EXPECT_EQ(same_pixels(rendered(project), first), set == 0);
         // Into the original file, and with newly written meshes, without tangents.
         for (const GltfOrigin* origin : {&bumpy->origin, &empty->origin}) {
             const std::string file = folder / (std::to_string(set) + (origin == &bumpy->origin ? "edited.gltf" : "written.gltf"));
@@ -229,7 +229,7 @@ TEST(Saved, TangentsFollowTheNormalMapToAnotherUvSetAsInTheReopenedFile) {
             const auto loaded = import_gltf(file);
             ASSERT_TRUE(loaded) << loaded.error().text();
             EXPECT_EQ(loaded->origin.json->find("TANGENT"), std::string::npos);
-            EXPECT_TRUE(same_picture(picture(project), picture({loaded->scene, {}, {}}))) << file;
+            EXPECT_TRUE(same_pixels(rendered(project), rendered({loaded->scene, {}, {}}))) << file;
         }
     }
 }

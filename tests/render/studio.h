@@ -1,7 +1,7 @@
 // A scene with one light of each kind, for tests of the light mix.
 #pragma once
 
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>

@@ -191,7 +191,7 @@ TEST(Diff, EnvironmentEdits) {
     EXPECT_EQ(of([](Environment& e) { e.rotation_degrees = 2; }), parameters);
     EXPECT_EQ(of([](Environment& e) { e.visible_to_camera = false; }), parameters);
     EXPECT_EQ(of([](Environment& e) { e.kind = Environment::Kind::none; }), image);
-    EXPECT_EQ(of([](Environment& e) { e.kind = Environment::Kind::image, e.image = test::float_image(2, 1, 3, 1); }), image);
+    EXPECT_EQ(of([](Environment& e) { e.kind = Environment::Kind::image, e.image = test::uniform_image(2, 1, 3, 1); }), image);
     EXPECT_EQ(of([](Environment& e) { e.file = "elsewhere.hdr"; }), nothing);
 }
 

@@ -86,7 +86,7 @@ TEST(Validate, PixelsMustBeThere) {
     EXPECT_FALSE(validate(environment));
     environment.image = test::byte_image(2, 1, 3, 1);
     EXPECT_FALSE(validate(environment)) << "not in float";
-    environment.image = test::float_image(2, 1, 3, 1);
+    environment.image = test::uniform_image(2, 1, 3, 1);
     EXPECT_TRUE(validate(environment));
 }
 

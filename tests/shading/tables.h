@@ -66,8 +66,8 @@ inline void add_layers(Random& random, Material& m) {
     m.dispersion = random.coin() ? random.unit() : 0;
 }
 
-// Materials are compiled with textures only if some mesh wears them.
-inline Id<Material> add_worn_material(Scene& scene, const Material& material) {
+// Materials are compiled with textures only if a mesh uses them.
+inline Id<Material> add_used_material(Scene& scene, const Material& material) {
     const Id<Material> id = scene.materials.add(material);
     scene.meshes.add({.name = "", .parts = {{nullptr, id}}});
     return id;

@@ -409,7 +409,7 @@ TEST(EnvironmentSampling, RareRowsAreSampled) {
     const EnvironmentTables tables = table.tables();
     const double p_rare = environment_pdf<float>(tables, {0, -1, 0}) * 4 * exact_pi * std::pow(std::sin(exact_pi / 12), 2);
     ASSERT_LT(p_rare, 0x1p-24);
-    // The last number below 1 stands for 2^-24 of all, and the rarest row lies in its share.
+    // The last number below 1 represents 2^-24 of all, and the rarest row lies in its share.
     Random random(10);
     const statistics::Moments m = statistics::estimate(200000, [&] {
         const EnvironmentSample<float> s = sample_environment<float>(tables, one_minus_epsilon, random.bits());
@@ -447,7 +447,7 @@ TEST(EnvironmentTable, IntegralIsThatOfTheMap) {
         const EnvironmentTable table = build_environment_table(map.environment);
         const Model model(table);
         const auto quadrature = [&](int points) { return model.integrate([&](const Vec3d& d) { return model.radiance(d, 0); }, points); };
-        // The midpoint rule's error falls fourfold with twice the points: the change is three times what is left.
+        // The midpoint rule's error falls to a quarter with twice the points: the change is three times the remaining error.
         const double coarse = quadrature(16), fine = quadrature(32);
         EXPECT_NEAR(table.integral().x, fine, std::abs(fine - coarse) + 1e-12 * fine) << map.name;
     }

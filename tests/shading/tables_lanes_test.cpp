@@ -55,7 +55,7 @@ Scene varied_scene(Random& random) {
         m.transmission = random.coin() ? random.unit() : 0;
         m.unlit = random.below(5) == 0;
         add_layers(random, m);
-        add_worn_material(scene, m);
+        add_used_material(scene, m);
     }
     scene.environment.kind = Environment::Kind::image;
     scene.environment.rotation_degrees = 77;

@@ -22,7 +22,7 @@ constexpr Vec4 white{1, 1, 1, 1};
 
 MaterialTable table_of(const Material& material) {
     Scene scene;
-    add_worn_material(scene, material);
+    add_used_material(scene, material);
     MaterialTable table;
     build_material_table(table, scene);
     return table;
@@ -36,7 +36,7 @@ float opacity_of(const Material& material, float vertex_alpha = 1, Vec2 uv = {0,
     Scene scene;
     Material textured = material;
     if (texture) textured.base_color_texture.texture = scene.textures.add(*texture);
-    add_worn_material(scene, textured);
+    add_used_material(scene, textured);
     MaterialTable table;
     build_material_table(table, scene);
     return opacity_at<all_features, float>(table.tables(), 1, {{{uv, uv}}}, vertex_alpha, true);
@@ -229,7 +229,7 @@ TEST(MaterialTable, FactorsMultiplyTheChannelsGltfNames) {
                                        &Material::specular_texture, &Material::specular_color_texture, &Material::transmission_texture}) {
         (m.*slot).texture = texture;
     }
-    add_worn_material(scene, m);
+    add_used_material(scene, m);
     MaterialTable table;
     build_material_table(table, scene);
     const MaterialPoint<float> p = point_of<all_features>(table, {0.5f, 1, 1, 1});
@@ -255,7 +255,7 @@ TEST(MaterialTable, LayerFactorsMultiplyTheChannelsGltfNames) {
     m.iridescence_thickness_maximum = 600;
     for (const TextureSlot& slot : texture_slots)
         if (slot.ref != &Material::normal_texture) (m.*slot.ref).texture = texture;
-    add_worn_material(scene, m);
+    add_used_material(scene, m);
     MaterialTable table;
     build_material_table(table, scene);
     const MaterialPoint<float> p = point_of<all_features>(table);
@@ -298,7 +298,7 @@ TEST(MaterialTable, FeaturesOfLayersAreWhatTheMaterialUses) {
     EXPECT_EQ(with([](Material& c) { c.anisotropy = 1; }), reflecting.with(Feature::anisotropy));
     EXPECT_EQ(with([](Material& c) { c.iridescence = 1; }), reflecting.with(Feature::iridescence));
     EXPECT_EQ(with([](Material& c) { c.diffuse_transmission = 1; }), reflecting.with(Feature::diffuse_transmission));
-    // Dispersion needs refraction; what has an inside needs to know about it.
+    // Dispersion alone needs no feature: it only has an effect in a solid with transmission.
     EXPECT_EQ(with([](Material& c) { c.dispersion = 1; }), reflecting);
     EXPECT_EQ(with([](Material& c) { c.dispersion = c.transmission = c.thickness = 1; }),
               reflecting.with(Feature::transmission).with(Feature::dispersion));
@@ -315,7 +315,7 @@ TEST(MaterialTable, NormalMapsAreScaledAndOfUnitLength) {
         Material m;
         m.normal_texture.texture = scene.textures.add(texel(204, 51, 230, 255));
         m.normal_scale = scale;
-        add_worn_material(scene, m);
+        add_used_material(scene, m);
         MaterialTable table;
         build_material_table(table, scene);
         const Vec3 n = point_of<all_features>(table).tangent_normal;
@@ -331,7 +331,7 @@ TEST(MaterialTable, NormalsBelowTheSurfaceAreLiftedAndNoneIsUnusable) {
         Scene scene;
         Material m;
         m.normal_texture.texture = scene.textures.add(texel(r, g, b, 255));
-        add_worn_material(scene, m);
+        add_used_material(scene, m);
         MaterialTable table;
         build_material_table(table, scene);
         const Vec3 n = point_of<all_features>(table).tangent_normal;
@@ -406,7 +406,7 @@ TEST(MaterialTable, FeaturesBeyondTheNeedChangeNoBit) {
     Random random(5);
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);
-    for (int i = 0; i < 600; ++i) add_worn_material(scene, random_material(random, i % 2 == 0 ? textures : std::vector<Id<Texture>>{}));
+    for (int i = 0; i < 600; ++i) add_used_material(scene, random_material(random, i % 2 == 0 ? textures : std::vector<Id<Texture>>{}));
     MaterialTable table;
     build_material_table(table, scene);
     constexpr uint32_t specular = bit(Feature::specular), transmission = bit(Feature::transmission), textured = bit(Feature::textures);
@@ -425,7 +425,7 @@ TEST(MaterialTable, EmissionAloneIsTheEmissionOfThePoint) {
     Random random(6);
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);
-    for (int i = 0; i < 50; ++i) add_worn_material(scene, random_material(random, textures));
+    for (int i = 0; i < 50; ++i) add_used_material(scene, random_material(random, textures));
     MaterialTable table;
     build_material_table(table, scene);
     for (int32_t i = 0; i <= 50; ++i) {
@@ -440,7 +440,7 @@ TEST(MaterialTable, UpdatingOneMaterialEqualsARebuild) {
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);
     std::vector<Id<Material>> ids;
-    for (int i = 0; i < 20; ++i) ids.push_back(add_worn_material(scene, random_material(random, textures)));
+    for (int i = 0; i < 20; ++i) ids.push_back(add_used_material(scene, random_material(random, textures)));
     MaterialTable table;
     build_material_table(table, scene);
     int rewritten = 0;
@@ -474,7 +474,7 @@ TEST(MaterialTable, NewTexturesOrMaterialsRequireANewTable) {
     Random random(8);
     Scene scene;
     const std::vector<Id<Texture>> textures = add_textures(scene, random);
-    const Id<Material> id = add_worn_material(scene, {});
+    const Id<Material> id = add_used_material(scene, {});
     MaterialTable table;
     build_material_table(table, scene);
     Material m;

@@ -75,7 +75,7 @@ struct Filtered {
         Material material;
         material.base_color_texture = material.metallic_roughness_texture = ref;
         material.base_color_texture.texture = material.metallic_roughness_texture.texture = scene.textures.add(texture);
-        add_worn_material(scene, material);
+        add_used_material(scene, material);
         build_material_table(table, scene);
     }
     Vec4 read(bool as_color, Vec2 uv, float width, bool filtered = true) const {

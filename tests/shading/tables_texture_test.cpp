@@ -28,7 +28,7 @@ struct Textured {
         Material material;
         material.base_color_texture = material.metallic_roughness_texture = ref;
         material.base_color_texture.texture = material.metallic_roughness_texture.texture = texture;
-        add_worn_material(scene, material);
+        add_used_material(scene, material);
         build_material_table(table, scene);
     }
     Vec4 read(bool as_color, Vec2 uv0, Vec2 uv1 = {0, 0}) const {
@@ -191,7 +191,7 @@ TEST(TextureLookup, EachUseLiesOnItsOwnUvSet) {
     int next = 0;
     ramp.image = make_byte_image(8, 1, 1, [&] { return uint8_t(next++ * 30); });
     const std::vector<int> sets{4, 0, 255, 2, 9, 5, 1};
-    add_worn_material(scene, on_uv_sets(scene.textures.add(ramp), sets));
+    add_used_material(scene, on_uv_sets(scene.textures.add(ramp), sets));
     MaterialTable table;
     build_material_table(table, scene);
     EXPECT_EQ(table.uv_sets, (std::vector<int>{0, 1, 2, 4, 5, 9, 255}));
@@ -215,8 +215,8 @@ TEST(TextureLookup, MoreUvSetsThanThereIsRoomForAreReportedAndReadWhite) {
     Texture black;
     black.image = make_byte_image(1, 1, 1, [] { return uint8_t(0); });
     const Id<Texture> texture = scene.textures.add(black);
-    add_worn_material(scene, on_uv_sets(texture, {0, 1, 2, 3, 4, 5, 6}));
-    add_worn_material(scene, on_uv_sets(texture, {10, 11}));
+    add_used_material(scene, on_uv_sets(texture, {0, 1, 2, 3, 4, 5, 6}));
+    add_used_material(scene, on_uv_sets(texture, {10, 11}));
     MaterialTable table;
     build_material_table(table, scene);
     EXPECT_EQ(table.uv_sets.size(), size_t(max_uv_sets));
@@ -291,7 +291,7 @@ TEST(TextureTable, StoresAnImageOnceHoweverItIsRead) {
     Material material;
     material.base_color_texture.texture = material.normal_texture.texture = scene.textures.add(repeated);
     material.metallic_roughness_texture.texture = scene.textures.add(clamped);
-    add_worn_material(scene, material);
+    add_used_material(scene, material);
     MaterialTable table;
     build_material_table(table, scene);
     EXPECT_EQ(table.textures.records.size(), 3u); // repeated as colour and as data, clamped as data
@@ -346,7 +346,7 @@ TEST(TextureTable, SkipsUnusedTextures) {
     unused.base_color_texture.texture = texture;
     scene.materials.add(unused);
     dielectric.transmission_texture.texture = texture; // but transmits nothing
-    add_worn_material(scene, dielectric);
+    add_used_material(scene, dielectric);
     MaterialTable table;
     build_material_table(table, scene);
     EXPECT_TRUE(table.textures.records.empty());

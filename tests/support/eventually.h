@@ -1,4 +1,4 @@
-// Waits with a limit: a test that would hang fails, and says what it waits for.
+// Waits with a limit: a test that would hang fails instead, with the name of the missing event.
 #pragma once
 
 #include <chrono>

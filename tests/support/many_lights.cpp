@@ -140,16 +140,16 @@ ImageVariance image_variance(int rooms, int64_t spp) {
     settings.reuse = 1;
 
     ImageVariance variance;
-    std::vector<float> pictures[2];
+    std::vector<float> images[2];
     for (uint32_t seed = 0; seed < 2; ++seed) {
         settings.seed = seed;
         Renderer renderer({.threads = 2, .planes = {}});
         renderer.update(scene, settings);
         renderer.render(0, spp);
-        pictures[seed] = renderer.resolve().rgba;
+        images[seed] = renderer.resolve().rgba;
     }
     constexpr double all = double(pixels) * pixels;
-    for (size_t i = 0; i < pictures[0].size(); i += 4) variance.rendered += std::pow(double(pictures[0][i] - pictures[1][i]), 2) / 2 / all;
+    for (size_t i = 0; i < images[0].size(); i += 4) variance.rendered += std::pow(double(images[0][i] - images[1][i]), 2) / 2 / all;
 
     RenderScene compiled;
     compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(1));

@@ -195,7 +195,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetEnvir
     e.sky.by_place_and_time = coin(rng);
     e.visible_to_camera = coin(rng);
     e.lights_scene = coin(rng);
-    if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = float_image(8, 4, 3, uniform(rng, 0.1f, 2));
+    if (e.kind == Environment::Kind::image && (!e.image || coin(rng))) e.image = uniform_image(8, 4, 3, uniform(rng, 0.1f, 2));
     return SetEnvironment{e};
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetMix>) {

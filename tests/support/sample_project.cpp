@@ -20,7 +20,7 @@ ImagePtr byte_image(int width, int height, int channels, uint8_t value) {
     return std::make_shared<const Image>(std::move(image));
 }
 
-ImagePtr float_image(int width, int height, int channels, float value) {
+ImagePtr uniform_image(int width, int height, int channels, float value) {
     Image image;
     image.width = width;
     image.height = height;

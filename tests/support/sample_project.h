@@ -9,7 +9,7 @@ namespace blush::test {
 GeometryPtr quad_geometry();
 // width x height pixels of one value.
 ImagePtr byte_image(int width, int height, int channels, uint8_t value);
-ImagePtr float_image(int width, int height, int channels, float value);
+ImagePtr uniform_image(int width, int height, int channels, float value);
 
 // Ids of the sample project's records.
 struct Sample {

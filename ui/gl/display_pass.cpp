@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-// mixed_picture() as a shader.
+// mixed_image() as a shader.
 const char* const main_source = R"(
 uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
@@ -100,12 +100,12 @@ Result<void> DisplayPass::set_shader(const DisplayShader& shader) {
     return {};
 }
 
-void DisplayPass::Picture::take(int w, int h, Values values) {
+void DisplayPass::SourceImage::take(int w, int h, Values values) {
     width = w;
     height = h;
     coming = std::move(values);
     next_row = 0;
-    // Each edit renders small pictures before full ones: the texture keeps its maximum size, so it is not reallocated.
+    // Each edit renders small images before full ones: the texture keeps its maximum size, so it is not reallocated.
     if (texture && w <= room_width && h <= room_height) return;
     room_width = std::max(room_width, w);
     room_height = std::max(room_height, h);
@@ -117,7 +117,7 @@ void DisplayPass::Picture::take(int w, int h, Values values) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void DisplayPass::Picture::upload_rows(int count) {
+void DisplayPass::SourceImage::upload_rows(int count) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -181,7 +181,7 @@ void DisplayPass::draw_rows(int first, int count) {
 
 // One small step: uploads some rows if an upload is pending, else draws some rows.
 void DisplayPass::step(double milliseconds) {
-    Picture* const comes = image_.coming ? &image_ : denoised_.coming ? &denoised_ : nullptr;
+    SourceImage* const comes = image_.coming ? &image_ : denoised_.coming ? &denoised_ : nullptr;
     const int width = comes ? comes->width : width_, left = comes ? comes->height - comes->next_row : height_ - next_row_;
     Pace& pace = comes ? uploading_ : drawing_;
     const int count = pace.rows(milliseconds, width, left);

@@ -14,7 +14,7 @@ namespace blush {
 // All settings that can change without a new upload.
 struct DisplayLook {
     DisplayParameters numbers;
-    PictureMix mix;
+    ImageMix mix;
     bool over_checker = false; // alpha is the opacity of premultiplied colours; transparent pixels show a checkerboard
     bool operator==(const DisplayLook&) const = default;
     bool needs_all_steps() const { return over_checker || numbers.needs_all_steps(); }
@@ -24,7 +24,7 @@ class DisplayPass {
 public:
     // Compiles the display transform and uploads its lookup tables.
     Result<void> set_shader(const DisplayShader& shader);
-    // Source pixels of the next picture: a frame's or a denoised picture's. They are copied while the picture is drawn, and kept
+    // Source pixels of the next image: a frame's or a denoised image's. They are copied while the image is drawn, and kept
     // alive until then. Must not be called while busy().
     void upload(const FramePtr& frame) { upload(frame->width, frame->height, {frame, frame->rgba.data()}); }
     void upload(int width, int height, std::vector<float> rgba) {
@@ -39,24 +39,24 @@ public:
     void upload_denoised(int width, int height, const std::shared_ptr<const std::vector<float>>& rgb) {
         upload_denoised(width, height, Values(rgb, rgb->data()));
     }
-    // Begins a new picture from the last uploads, at the frame's resolution; cancels one that is in progress.
+    // Begins a new image from the last uploads, at the frame's resolution; cancels one that is in progress.
     void begin(const DisplayLook& look);
     // Continues for the given number of milliseconds, or slightly longer. A GPU finishes at once; with a software rasterizer a
-    // large picture takes several UI frames, without blocking any of them.
+    // large image takes several UI frames, without blocking any of them.
     void advance(double milliseconds);
     bool busy() const { return next_row_ < height_; }
-    // Predicted milliseconds to upload and to draw this many pixels of one or both pictures, from the last measured speed.
-    double expected_milliseconds(double pixels, int pictures) const {
-        return pixels * pictures / uploading_.pixels_per_millisecond + pixels / drawing_.pixels_per_millisecond;
+    // Predicted milliseconds to upload and to draw this many pixels of one or both images, from the last measured speed.
+    double expected_milliseconds(double pixels, int images) const {
+        return pixels * images / uploading_.pixels_per_millisecond + pixels / drawing_.pixels_per_millisecond;
     }
 
-    // The last finished picture, first row on top.
+    // The last finished image, first row on top.
     GLuint texture() const { return targets_[front_].texture(); }
 
 private:
     using Values = std::shared_ptr<const float>;
     // Scene-linear pixels as a texture; they fill its lower left corner.
-    struct Picture {
+    struct SourceImage {
         GLenum format; // GL_RGB or GL_RGBA
         GlTexture texture = {};
         int room_width = 0, room_height = 0;
@@ -80,8 +80,8 @@ private:
 
     GlProgram common_, complete_; // without and with the steps that most looks leave out (DisplayLook::needs_all_steps)
     GlVertexArray no_vertices_;
-    Picture image_{GL_RGBA}, denoised_{GL_RGB};
-    std::vector<std::pair<GLenum, GlTexture>> tables_; // in the texture units after those of the pictures
+    SourceImage image_{GL_RGBA}, denoised_{GL_RGB};
+    std::vector<std::pair<GLenum, GlTexture>> tables_; // in the texture units after those of the images
     RenderTarget targets_[2];                          // one is displayed while the other is drawn
     int front_ = 0;
     int width_ = 0, height_ = 0;

@@ -96,7 +96,7 @@ void OutlinePass::draw(int width, int height, float thickness) {
     glBindVertexArray(no_vertices_.name());
     glUniform2f(glGetUniformLocation(program_.name(), "ring"), thickness / float(width), thickness / float(height));
     const float across = float(width) / float(width_), down = float(height) / float(height_);
-    glEnable(GL_SCISSOR_TEST); // searching the whole picture would cost ten times as much
+    glEnable(GL_SCISSOR_TEST); // searching the whole image would cost ten times as much
     for (const PixelRect& edge : edges_) {
         const int x0 = int(std::floor(float(edge.x0) * across)), y0 = int(std::floor(float(edge.y0) * down));
         glScissor(x0, y0, int(std::ceil(float(edge.x1) * across)) - x0, int(std::ceil(float(edge.y1) * down)) - y0);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/frame.h"
-#include "scene/picture_region.h"
+#include "scene/image_region.h"
 #include "ui/gl/gl_objects.h"
 
 #include <cstdint>
@@ -17,8 +17,8 @@ public:
     // Makes the mask of the selected objects from the id plane: those with selected[Id<Node>.value] != 0. No outline if the frame
     // has no id plane, or none of the objects is visible.
     void upload(const Frame& frame, const std::vector<uint8_t>& selected);
-    // Renders the outline into texture() for a picture of this size on the screen; transparent elsewhere. It does not depend on
-    // the picture's colours. Skipped if the last outline is still valid.
+    // Renders the outline into texture() for an image of this size on the screen; transparent elsewhere. It does not depend on
+    // the image's colours. Skipped if the last outline is still valid.
     void draw(int width, int height, float thickness);
 
     GLuint texture() const { return target_.texture(); }

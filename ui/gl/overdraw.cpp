@@ -86,7 +86,7 @@ ImDrawCmd clearing(const Rect& rect, ImU32 color) {
 }
 
 // The command, once per visible part; none if it is fully covered.
-void add_seen(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::vector<Rect>& covered) {
+void add_visible_parts(ImVector<ImDrawCmd>& seen, const ImDrawCmd& command, const std::vector<Rect>& covered) {
     std::vector<Rect> parts{command.ClipRect};
     if (!command.UserCallback)
         for (const Rect& c : covered) parts = without(parts, c);
@@ -113,7 +113,7 @@ void reduce_overdraw(ImDrawData& data) {
             for (const Rect& part : parts) seen.push_back(clearing(part, ground->color));
         }
         for (const ImDrawCmd& command : list.CmdBuffer)
-            if (command.UserCallback || command.ElemCount > 0) add_seen(seen, command, covered);
+            if (command.UserCallback || command.ElemCount > 0) add_visible_parts(seen, command, covered);
         list.CmdBuffer.swap(seen);
         if (ground) covered.push_back(ground->rect);
     }

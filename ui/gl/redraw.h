@@ -1,5 +1,5 @@
 // Says whether a UI frame looks different from the one on the screen. Most of a frame's time is drawing and swapping, which a frame
-// without a difference saves: while a picture is drawn over several UI frames, after input that changes nothing, or while ImGui
+// without a difference saves: while an image is drawn over several UI frames, after input that changes nothing, or while ImGui
 // settles.
 #pragma once
 
@@ -17,7 +17,7 @@ class Redraw {
 public:
     // True if `data`, or the content of any texture, differs from the last call. `data` is ImGui's draw data after Render().
     bool is_needed(const ImDrawData& data);
-    // The next frame is needed: the window system has lost what was drawn.
+    // The next frame is needed: the window system has lost the content of the window.
     void force() { drawn_.clear(); }
 
 private:

@@ -1,4 +1,4 @@
-// Reuses the memory of a published picture once it has no more readers; the previous one may still be in use.
+// Reuses the memory of a published image once it has no more readers; the previous one may still be in use.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Computes a value for a question on another thread, again whenever the question changes. For statistics that would block the UI
+// Computes a value for an input on another thread, again whenever the input changes. For statistics that would block the UI
 // thread.
 #pragma once
 
@@ -11,23 +11,23 @@
 
 namespace blush {
 
-template <class Question, class Answer> class AsyncQuery {
+template <class Input, class Output> class AsyncQuery {
 public:
-    // `answer_it` runs on another thread and must not throw. Answers use at most a fifth of one core's time, which the renderer
+    // `compute` runs on another thread and must not throw. It uses at most a fifth of one core's time, which the renderer
     // needs.
-    // True while there is no answer to this question yet.
-    bool ask(const Question& question, Answer (*answer_it)(const Question&)) {
+    // True while there is no result for this input yet.
+    bool update(const Input& input, Output (*compute)(const Input&)) {
         take();
-        if (!job_ && (!asked_ || *asked_ != question) && Clock::now() >= next_) {
-            asked_ = question;
+        if (!job_ && (!input_ || *input_ != input) && Clock::now() >= next_) {
+            input_ = input;
             began_ = Clock::now();
-            job_ = std::make_shared<BackgroundJob<Answer>>(
-                "", [question, answer_it](JobProgress&) { return answer_it(question); }, [] {});
+            job_ = std::make_shared<BackgroundJob<Output>>(
+                "", [input, compute](JobProgress&) { return compute(input); }, [] {});
         }
-        return job_ || !asked_ || *asked_ != question;
+        return job_ || !input_ || *input_ != input;
     }
-    // The latest answer; null before the first.
-    const Answer* answer() const { return answer_ ? &*answer_ : nullptr; }
+    // The latest result; null before the first.
+    const Output* output() const { return output_ ? &*output_ : nullptr; }
     // Its number, counted from 1; 0 before the first.
     uint64_t number() const { return number_; }
 
@@ -37,16 +37,16 @@ private:
         if (!job_) return;
         auto done = job_->take();
         if (!done) return;
-        answer_ = *std::move(done);
+        output_ = *std::move(done);
         ++number_;
         job_.reset();
         next_ = Clock::now() + 4 * (Clock::now() - began_);
     }
 
-    std::optional<Question> asked_;
-    std::optional<Answer> answer_;
+    std::optional<Input> input_;
+    std::optional<Output> output_;
     uint64_t number_ = 0;
-    std::shared_ptr<BackgroundJob<Answer>> job_; // shared, because the owner is copied
+    std::shared_ptr<BackgroundJob<Output>> job_; // shared, because the owner is copied
     Clock::time_point began_{}, next_{};
 };
 

@@ -25,7 +25,7 @@ namespace blush {
 // Empty if the user has no cache folder.
 std::filesystem::path thumbnail_file(const std::filesystem::path& scene, const std::filesystem::path& assets);
 
-// Saves the displayed picture as a PNG of Thumbnail's size. Errors: colour transform fails, folder not writable.
+// Saves the displayed image as a PNG of Thumbnail's size. Errors: colour transform fails, folder not writable.
 Result<void> write_thumbnail(const std::filesystem::path& file, const Frame& frame, const ViewSettings& view, const ColorManagement& color);
 
 // The image at Thumbnail's size, letterboxed with black: display RGB, width * height * 3. 8-bit images are shown unchanged.

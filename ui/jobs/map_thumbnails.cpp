@@ -40,7 +40,7 @@ SmallImage small_image(const Image& image) {
     return small;
 }
 
-MapThumbnails::Picture MapThumbnails::of(const Image& image) {
+MapThumbnails::MapPreview MapThumbnails::of(const Image& image) {
     if (kept_.size() >= most && !kept_.contains(image.serial)) kept_.clear();
     const auto [entry, is_new] = kept_.try_emplace(image.serial);
     Kept& kept = entry->second;

@@ -24,14 +24,14 @@ SmallImage small_image(const Image& image);
 // Created on first use. A graphics context must be current.
 class MapThumbnails {
 public:
-    struct Picture {
+    struct MapPreview {
         ImTextureID texture = nullptr;
         float width = 0, height = 0; // pixels
     };
-    Picture of(const Image& image);
+    MapPreview of(const Image& image);
 
 private:
-    static constexpr size_t most = 256; // above this, all are created anew
+    static constexpr size_t most = 256; // above this, all are dropped and created again
     struct Kept {
         GlTexture texture;
         int width = 0, height = 0;

@@ -13,7 +13,7 @@ constexpr double good_enough = 0.002; // half the confidence interval, relative
 
 } // namespace
 
-MeterWork::Question::Question(const Scene& scene_, const RenderSettings& settings_, const std::vector<MeterPlace>& places_)
+MeterWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, const std::vector<MeterPlace>& places_)
     : scene(scene_), settings(settings_), places(places_) {
     // Readings do not depend on view or resolution.
     scene.view = {};
@@ -22,13 +22,13 @@ MeterWork::Question::Question(const Scene& scene_, const RenderSettings& setting
     settings.region = {};
 }
 
-bool MeterWork::Question::asks_the_same(const Question& other) const {
+bool MeterWork::Input::has_same_result(const Input& other) const {
     return places == other.places && !diff(scene, settings, other.scene, other.settings).affects_image();
 }
 
 bool MeterWork::round(const std::function<bool()>& wanted) { return meters_.round(samples_per_round, wanted); }
 
-bool MeterWork::is_good(const Answer& readings) {
+bool MeterWork::is_good(const Output& readings) {
     return std::ranges::all_of(readings, [](const MeterReading& r) {
         if (r.rounds >= max_rounds) return true;
         return r.rounds >= min_rounds && r.lux.high - r.lux.low <= 2 * good_enough * r.lux.value;

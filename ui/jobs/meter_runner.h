@@ -10,21 +10,21 @@ namespace blush {
 
 class MeterWork {
 public:
-    struct Question {
-        Question(const Scene& scene, const RenderSettings& settings, const std::vector<MeterPlace>& places);
+    struct Input {
+        Input(const Scene& scene, const RenderSettings& settings, const std::vector<MeterPlace>& places);
 
         Scene scene;
         RenderSettings settings;
         std::vector<MeterPlace> places;
-        // True if the light at the meters is the same for both questions.
-        bool asks_the_same(const Question& other) const;
+        // True if the light at the meters is the same for both inputs.
+        bool has_same_result(const Input& other) const;
     };
-    using Answer = std::vector<MeterReading>;
+    using Output = std::vector<MeterReading>;
 
-    void begin(const Question& q) { meters_.begin(q.scene, q.settings, q.places); }
+    void begin(const Input& q) { meters_.begin(q.scene, q.settings, q.places); }
     bool round(const std::function<bool()>& wanted);
-    Answer answer() const { return meters_.readings(); }
-    static bool is_good(const Answer& readings);
+    Output output() const { return meters_.readings(); }
+    static bool is_good(const Output& readings);
 
 private:
     LightMeters meters_{{.threads = 1, .low_priority = true, .planes = {}}};

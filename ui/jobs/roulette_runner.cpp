@@ -9,10 +9,10 @@ constexpr int64_t max_roulette_rounds = 2000; // enough to measure a bias of 0.0
 
 } // namespace
 
-bool RouletteWork::Question::asks_the_same(const Question& other) const {
+bool RouletteWork::Input::has_same_result(const Input& other) const {
     return !diff(scene, settings, other.scene, other.settings).affects_image();
 }
 
-bool RouletteWork::is_good(const Answer& report) { return report.rounds >= max_roulette_rounds; }
+bool RouletteWork::is_good(const Output& report) { return report.rounds >= max_roulette_rounds; }
 
 } // namespace blush

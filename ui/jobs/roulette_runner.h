@@ -8,17 +8,17 @@ namespace blush {
 
 class RouletteWork {
 public:
-    struct Question {
+    struct Input {
         Scene scene;
         RenderSettings settings;
-        bool asks_the_same(const Question& other) const;
+        bool has_same_result(const Input& other) const;
     };
-    using Answer = RouletteReport;
+    using Output = RouletteReport;
 
-    void begin(const Question& q) { lab_.begin(q.scene, q.settings); }
+    void begin(const Input& q) { lab_.begin(q.scene, q.settings); }
     bool round(const std::function<bool()>& wanted) { return lab_.round(wanted); }
-    Answer answer() const { return lab_.report(); }
-    static bool is_good(const Answer& report);
+    Output output() const { return lab_.report(); }
+    static bool is_good(const Output& report);
 
 private:
     RouletteComparison lab_{{.threads = 1, .low_priority = true, .planes = {}}};

@@ -16,17 +16,17 @@
 namespace blush {
 
 // `Work` is created and used only on that thread:
-//     struct Question;                                  with bool asks_the_same(const Question&) const
-//     struct Answer;
-//     void begin(const Question&);
+//     struct Input;                                     with bool has_same_result(const Input&) const
+//     struct Output;
+//     void begin(const Input&);
 //     bool round(const std::function<bool()>& wanted);  false if it was cancelled because wanted() is false
-//     Answer answer() const;                            from the rounds so far
-//     static bool is_good(const Answer&);               true if more rounds would not improve it
+//     Output output() const;                            from the rounds so far
+//     static bool is_good(const Output&);               true if more rounds would not improve it
 // Exceptions thrown by begin() and round() are reported as a failure.
 template <class Work> class RoundRunner {
 public:
-    using Question = typename Work::Question;
-    using Answer = typename Work::Answer;
+    using Input = typename Work::Input;
+    using Output = typename Work::Output;
 
     RoundRunner() : thread_([this] { run(); }) {}
     // Cancels the current round and joins the thread.
@@ -41,12 +41,12 @@ public:
     RoundRunner(const RoundRunner&) = delete;
     RoundRunner& operator=(const RoundRunner&) = delete;
 
-    // Restarts if this question differs from the current one. Does not block.
-    void measure(Question question) {
+    // Restarts if this input differs from the current one. Does not block.
+    void measure(Input input) {
         {
             const std::lock_guard lock(mutex_);
-            if (last_ && last_->asks_the_same(question)) return;
-            last_ = std::move(question);
+            if (last_ && last_->has_same_result(input)) return;
+            last_ = std::move(input);
             pending_ = last_;
             state_ = {};
         }
@@ -54,7 +54,7 @@ public:
     }
 
     struct State {
-        Answer answer = {};  // default-constructed before the first round
+        Output output = {};  // default-constructed before the first round
         bool rests = false;  // accurate enough; no more rounds
         std::string failure; // error message; empty: none
     };
@@ -64,36 +64,36 @@ public:
     }
 
 private:
-    void render_batch(Work& work, const std::optional<Question>& question) {
+    void render_batch(Work& work, const std::optional<Input>& input) {
         State state;
         try {
-            if (question) work.begin(*question);
+            if (input) work.begin(*input);
             if (!work.round([this] { return !quit_; })) return;
-            state.answer = work.answer();
-            state.rests = Work::is_good(state.answer);
+            state.output = work.output();
+            state.rests = Work::is_good(state.output);
         } catch (const std::exception& e) { state.failure = e.what(); }
         const std::lock_guard lock(mutex_);
-        if (!pending_) state_ = std::move(state); // otherwise it answers an outdated question
+        if (!pending_) state_ = std::move(state); // otherwise it is the result of an outdated input
     }
 
     void run() {
         lower_priority_of_this_thread();
         Work work;
         for (;;) {
-            std::optional<Question> question;
+            std::optional<Input> input;
             {
                 std::unique_lock lock(mutex_);
                 wake_.wait(lock, [&] { return quit_ || pending_ || (last_ && !state_.rests && state_.failure.empty()); });
                 if (quit_) return;
-                question.swap(pending_);
+                input.swap(pending_);
             }
-            render_batch(work, question);
+            render_batch(work, input);
         }
     }
 
     mutable std::mutex mutex_;
     std::condition_variable wake_;
-    std::optional<Question> last_, pending_;
+    std::optional<Input> last_, pending_;
     State state_;
     std::atomic<bool> quit_{false};
     std::thread thread_; // last member: starts after everything else is initialised

@@ -1,4 +1,4 @@
-// Lights drawn over the picture: an icon each in the light's colour, with lines for size, cone and direction.
+// Lights drawn over the image: an icon each in the light's colour, with lines for size, cone and direction.
 #pragma once
 
 #include "scene/scene.h"

@@ -147,7 +147,7 @@ Light resized(const LightInView& start, Handle handle, const Projection& project
         break;
     default: break;
     }
-    return with_power_kept(start.light, light);
+    return with_same_power(start.light, light);
 }
 
 } // namespace blush

@@ -21,7 +21,7 @@ struct LightRow {
     float intensity = 0; // in `unit`; for a material its emissive strength, for an image or sky its multiplier
     const char* unit = "";
     bool on = true, solo = false;
-    bool shines = true; // not muted
+    bool enabled = true; // not muted
 };
 struct LightRows {
     std::string group; // "": ungrouped; these rows come last
@@ -33,9 +33,9 @@ std::vector<LightRows> light_rows(const Scene& scene);
 // Edits that toggle mute or solo of a row.
 Edit with_switches(const Scene& scene, const LightRow& row, bool on, bool solo);
 
-// Contribution of a row to a picture rendered with light groups; known only per group.
+// Contribution of a row to an image rendered with light groups; known only per group.
 struct RowShare {
-    double energy = 0, noise = 0; // fractions of the picture's luminance and of its noise variance, 0 .. 1
+    double energy = 0, noise = 0; // fractions of the image's luminance and of its noise variance, 0 .. 1
     bool alone = false;           // the only light in its group; otherwise the values are those of the whole group
 };
 // `reports`: of the frame's groups. nullopt for a light added after the frame.

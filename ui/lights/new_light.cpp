@@ -18,7 +18,7 @@ namespace {
 constexpr double size_of_reach = 0.2, reach_factor = 0.45, max_reach_factor = 1.5;
 constexpr double room_fraction = 0.6; // fraction of the distance to a wall
 
-// Height of the picture in metres at a distance along the view axis.
+// Height of the image in metres at a distance along the view axis.
 double reach_at(const View& view, double distance) {
     return view.lens.orthographic ? 2.0 * view.lens.ymag : 2 * distance * std::tan(view.lens.yfov_radians / 2.0);
 }
@@ -40,10 +40,10 @@ double clearance_at(const Scene& scene, const Vec3d& position) {
 }
 
 // The first candidate that keeps its distance from all lights; else the one farthest from all.
-LightSpot first_free(const Scene& scene, const std::vector<LightSpot>& spots, double room) {
-    const LightSpot* best = &spots.front();
+LightPlacement first_free(const Scene& scene, const std::vector<LightPlacement>& spots, double room) {
+    const LightPlacement* best = &spots.front();
     double most = -1e300;
-    for (const LightSpot& spot : spots) {
+    for (const LightPlacement& spot : spots) {
         const double clearance = clearance_at(scene, spot.position);
         if (clearance > room) return spot;
         if (clearance > most) most = clearance, best = &spot;
@@ -56,7 +56,7 @@ bool contains(const Bounds& box, const Vec3d& p) {
 }
 
 // Distance at which a ray from inside leaves the box; 0 if the origin is outside.
-double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
+double distance_to_exit(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
     if (box.empty || !contains(box, from)) return 0;
     double out = 1e300;
     const auto slab = [&](double o, double d, double low, double high) {
@@ -70,7 +70,7 @@ double way_out(const Bounds& box, const Vec3d& from, const Vec3d& direction) {
 
 // Distance from a point inside a room to its wall: a surface that faces the point. The shell of an object around the point faces
 // away and is skipped. Infinite in the open.
-double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& direction) {
+double distance_to_wall(const Scene& scene, const Vec3d& from, const Vec3d& direction) {
     constexpr int max_shells = 16;
     Vec3d origin = from;
     for (int i = 0; i < max_shells; ++i) {
@@ -88,21 +88,21 @@ double wall_of_room(const Scene& scene, const Vec3d& from, const Vec3d& directio
 struct Direction {
     double around, above, strength;
 };
-// Of the wanted distance to the subject: with less room, another direction is better.
+// Of the wanted distance to the subject: with less space, another direction is better.
 constexpr double min_free_share = 0.4;
 constexpr Direction key{40, 40, 1}, fill{-55, 15, 0.25}, rim{160, 45, 1};
 constexpr Direction in_turn[] = {key, fill, rim, {0, 80, 1}, {-120, 35, 1}, {95, 20, 1}, {-20, 55, 1}, {70, 60, 1}, {-160, 15, 1}};
 
 } // namespace
 
-LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfacePoint& surface) {
+LightPlacement placement_above_surface(const Scene& scene, const View& view, const SurfacePoint& surface) {
     const Vec3d eye = to_double(view.position), right = rotate(view.rotation, {1, 0, 0});
     const Vec3d to_eye = view.lens.orthographic ? rotate(view.rotation, {0, 0, 1}) : normalize(eye - surface.position);
     const Vec3d normal = dot(surface.normal, to_eye) < 0 ? -surface.normal : surface.normal;
     const double reach = reach_at(view, length(eye - surface.position)), distance = reach_factor * reach;
-    std::vector<LightSpot> spots;
-    for (const double aside : {0.0, 0.7, -0.7, 1.4, -1.4, 2.8, -2.8}) {
-        const Vec3d direction = normalize(normal + to_eye * 0.3 + Vec3d{0, 0.3, 0} + right * aside);
+    std::vector<LightPlacement> spots;
+    for (const double lateral : {0.0, 0.7, -0.7, 1.4, -1.4, 2.8, -2.8}) {
+        const Vec3d direction = normalize(normal + to_eye * 0.3 + Vec3d{0, 0.3, 0} + right * lateral);
         const double free =
             unoccluded_fraction(scene, surface.position, surface.position + direction * distance, [](Id<Node>) { return true; });
         spots.push_back({surface.position + direction * (distance * (free < 1 ? room_fraction * free : 1)), surface.position, 1});
@@ -110,7 +110,7 @@ LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfaceP
     return first_free(scene, spots, size_of_reach * reach);
 }
 
-LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds& subject) {
+LightPlacement placement_around_subject(const Scene& scene, const View& view, const Bounds& subject) {
     const Vec3d target = pivot(view), back = rotate(view.rotation, {0, 0, 1});
     const double reach = reach_at(view, view.pivot_distance), to_viewer = std::atan2(back.x, back.z);
     const bool in_room = !subject.empty && contains(subject, to_double(view.position));
@@ -119,17 +119,17 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
     for (const Direction& d : in_turn) {
         const double around = to_viewer + d.around * std::numbers::pi / 180, above = d.above * std::numbers::pi / 180;
         directions.push_back({std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)});
-        farthest.push_back(room_fraction * wall_of_room(scene, target, directions.back()));
+        farthest.push_back(room_fraction * distance_to_wall(scene, target, directions.back()));
     }
-    std::vector<LightSpot> spots, cramped;
+    std::vector<LightPlacement> spots, cramped;
     for (const double farther : {1.0, 1.4, 2.0})
         for (size_t i = 0; i < directions.size(); ++i) {
             const Vec3d& direction = directions[i];
             double distance = reach_factor * reach;
-            // A floor that extends beyond the picture is not a subject: the light need not be outside of it.
-            if (const double out = in_room ? 0 : 1.1 * way_out(subject, target, direction); out < max_reach_factor * reach)
+            // A floor that extends beyond the image is not a subject: the light need not be outside of it.
+            if (const double out = in_room ? 0 : 1.1 * distance_to_exit(subject, target, direction); out < max_reach_factor * reach)
                 distance = std::max(distance, out);
-            // Beside an object that stands close to the subject a light would light a spot of it: other directions come first.
+            // A light close to another object would light only a spot of it: other directions come first.
             const double free = std::min(distance * farther, farthest[i]);
             (free < min_free_share * distance ? cramped : spots).push_back({target + direction * free, target, in_turn[i].strength});
         }
@@ -137,7 +137,7 @@ LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds&
     return first_free(scene, spots, size_of_reach * reach);
 }
 
-AddLight new_light(Light::Kind kind, const View& view, const LightSpot& spot, float exposure_ev) {
+AddLight new_light(Light::Kind kind, const View& view, const LightPlacement& spot, float exposure_ev) {
     const double reach = reach_at(view, length(spot.target - to_double(view.position))), distance = length(spot.target - spot.position);
     AddLight add;
     add.light.name = add.node.name = kind_name(kind);

@@ -6,18 +6,18 @@
 
 namespace blush {
 
-struct LightSpot {
+struct LightPlacement {
     Vec3d position{0, 0, 0}, target{0, 0, 0};
     double strength = 1; // factor of the strength that displays a white surface at the target as white
 };
 
 // In front of the surface, on the viewer's side.
-LightSpot spot_over_surface(const Scene& scene, const View& view, const SurfacePoint& surface);
+LightPlacement placement_above_surface(const Scene& scene, const View& view, const SurfacePoint& surface);
 // Around the view's pivot: key, fill and rim position, then positions between them; the first free one. Outside of `subject`,
 // unless the viewer is inside it (a room). A position is free if the new light does not touch another one.
-LightSpot spot_round_subject(const Scene& scene, const View& view, const Bounds& subject);
+LightPlacement placement_around_subject(const Scene& scene, const View& view, const Bounds& subject);
 
 // A light at the position, aimed at its target, for this exposure.
-AddLight new_light(Light::Kind kind, const View& view, const LightSpot& spot, float exposure_ev);
+AddLight new_light(Light::Kind kind, const View& view, const LightPlacement& spot, float exposure_ev);
 
 } // namespace blush

@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-LightPose shining_at(const Light& light, const LightPose& pose, const Vec3d& position, const Vec3d& forward) {
+LightPose directed(const Light& light, const LightPose& pose, const Vec3d& position, const Vec3d& forward) {
     return {position, has_direction(light.kind) ? turned_to(pose.rotation, forward) : pose.rotation};
 }
 
@@ -25,14 +25,14 @@ Node with_pose(const Scene& scene, Id<Node> id, const LightPose& pose) {
 LightPose with_highlight_at(const Light& light, const LightPose& pose, const SurfacePoint& spot, const Vec3d& view, double distance) {
     const Vec3d wo = normalize(-view), n = dot(spot.normal, wo) < 0 ? -spot.normal : spot.normal;
     const Vec3d wi = n * (2 * dot(n, wo)) - wo;
-    return shining_at(light, pose, spot.position + wi * distance, -wi);
+    return directed(light, pose, spot.position + wi * distance, -wi);
 }
 
 LightPose with_shadow_at(const Light& light, const LightPose& pose, const Vec3d& occluder, const Vec3d& target, double distance) {
     const Vec3d back = occluder - target;
     if (!(length(back) > 1e-9)) return pose;
     const Vec3d wi = normalize(back);
-    return shining_at(light, pose, occluder + wi * distance, -wi);
+    return directed(light, pose, occluder + wi * distance, -wi);
 }
 
 bool faces(const SurfacePoint& spot, const Vec3d& position) { return dot(spot.normal, position - spot.position) > 0; }

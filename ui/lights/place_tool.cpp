@@ -24,7 +24,7 @@ double distance_between(const LightPose& pose, const Vec3d& point) { return std:
 
 } // namespace
 
-std::optional<SurfacePoint> PlaceTool::spot_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const {
+std::optional<SurfacePoint> PlaceTool::surface_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const {
     const FramePtr& frame = dragging_ ? surfaces_ : c.frame;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!frame) return {};
@@ -61,7 +61,7 @@ void PlaceTool::press(PanelContext& c, const SurfacePoint& spot) {
 }
 
 // The light is placed even if something blocks its path; warn the user about it.
-void PlaceTool::say_what_blocks(PanelContext& c) const {
+void PlaceTool::warn_of_occluder(PanelContext& c) const {
     const Light* light = light_at(c.scene(), node_);
     if (!light || !effect_at_) return;
     const auto counts = [&](Id<Node> id) { return id != node_ && id != occluder_node_ && contains(light->shadow_casters, c.scene(), id); };
@@ -76,7 +76,7 @@ void PlaceTool::say_what_blocks(PanelContext& c) const {
 }
 
 void PlaceTool::release(PanelContext& c) {
-    if (placed_) say_what_blocks(c);
+    if (placed_) warn_of_occluder(c);
     effect_at_.reset();
     if (placed_) occluder_.reset();
     dragging_ = false;
@@ -115,7 +115,7 @@ bool PlaceTool::update(PanelContext& c, ImDrawList& draw, const Projection& proj
     }
     if (by_ == PlacingBy::hand) return false;
     draw_hint(draw, hint(light->name.empty() ? "the light" : elided(light->name, max_name_width())));
-    const auto spot = hovered || dragging_ ? spot_under_mouse(c, projection, image) : std::nullopt;
+    const auto spot = hovered || dragging_ ? surface_under_mouse(c, projection, image) : std::nullopt;
     const bool pressed = hovered && !dragging_ && plain_click();
     if (pressed && spot) press(c, *spot);
     if (dragging_ && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) placed_ = true;

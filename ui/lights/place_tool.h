@@ -16,12 +16,12 @@ public:
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image, bool hovered);
 
 private:
-    std::optional<SurfacePoint> spot_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const;
+    std::optional<SurfacePoint> surface_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const;
     // The light's pose for the surface point under the mouse.
     std::optional<LightPose> wanted(PanelContext& c, const Projection& projection, const ImageRect& image, const SurfacePoint& spot) const;
     void press(PanelContext& c, const SurfacePoint& spot);
     void release(PanelContext& c);
-    void say_what_blocks(PanelContext& c) const;
+    void warn_of_occluder(PanelContext& c) const;
     void draw_preview(ImDrawList& draw, const Projection& projection, const ImageRect& image, const SurfacePoint& spot,
                       const std::optional<LightPose>& pose) const;
     std::string hint(const std::string& light) const;

@@ -1,7 +1,7 @@
-// Bounces panel: the picture split by the number of scattering events. Changing the view does not restart the render.
+// Bounces panel: the image split by the number of scattering events. Changing the view does not restart the render.
 #include "measure/statistics/bounce_energy.h"
 #include "ui/panels/panels.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/widgets/bars.h"
 #include "ui/widgets/widgets.h"
 
@@ -47,18 +47,18 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
     double direct = 0;
     for (size_t k = 0; k < energies.size(); ++k) {
         const BounceEnergy& e = energies[k];
-        bars.push_back({fmt::format("Bounce {}", e.name), e.share, fmt::format("{:.2f} %", 100 * e.share),
-                        view.mode != Mode::picture && gains[k] != 0});
+        bars.push_back(
+            {fmt::format("Bounce {}", e.name), e.share, fmt::format("{:.2f} %", 100 * e.share), view.mode != Mode::image && gains[k] != 0});
         if (k <= 1) direct += e.share;
     }
-    const int clicked = draw_bars(c.ui, "Energy", bars, "Share of the picture's luminance. Click to show this bounce alone.");
+    const int clicked = draw_bars(c.ui, "Energy", bars, "Share of the image's luminance. Click to show this bounce alone.");
     if (clicked >= 0) {
         view.mode = Mode::single;
         view.bounce = clicked;
         view.playing = false;
     }
-    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains)) quiet_text("The bounce passes do not include the light mix.");
-    quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the picture's light.", 100 * direct, 100 * (1 - direct)));
+    if (is_mixed(c.mixing ? c.mixing->gains : c.frame->gains)) quiet_text("The bounce AOVs do not include the light mix.");
+    quiet_text(fmt::format("Direct {:.1f} %, indirect {:.1f} % of the image's light.", 100 * direct, 100 * (1 - direct)));
 }
 
 } // namespace
@@ -66,7 +66,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
 void draw_bounces_panel(PanelContext& c) {
     BouncesView& view = c.ui.bounces;
     const std::vector<BounceEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<BounceEnergy>();
-    if (energies.empty()) return quiet_text("Waiting for a render with bounce passes.");
+    if (energies.empty()) return quiet_text("Waiting for a render with bounce AOVs.");
     Fields f(c.ui, "Bounces");
     int mode = int(view.mode);
     if (f.choice("Show", mode, BouncesView::names, "What the viewport shows. It does not restart the render and is not saved.")) {

@@ -45,8 +45,7 @@ void draw_projection(Fields& f, Lens& lens) {
             lens.ymag = height / 2;
         return;
     }
-    f.angle("Field of view", lens.yfov_radians,
-            {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the picture."});
+    f.angle("Field of view", lens.yfov_radians, {.min = 1, .max = 170, .reset = 39.6f, .bar = true, .tip = "Vertical angle of the image."});
     float millimetres = focal_length(lens) * 1000;
     if (f.number("Focal length", millimetres,
                  {.min = 0.14f,
@@ -84,7 +83,7 @@ void draw_focus(Fields& f, Lens& lens) {
               .max = 1e6f,
               .reset = 1,
               .unit = "m",
-              .tip = "Distance of the focus plane along the view axis. Ctrl+click in the picture sets it."});
+              .tip = "Distance of the focus plane along the view axis. Ctrl+click in the image sets it."});
 }
 
 struct AspectPreset {
@@ -107,7 +106,7 @@ void draw_frame(PanelContext& c) {
     std::string name = chosen == aspects.end() ? fmt::format("{:.3g}:1", frame.aspect) : names[size_t(chosen - aspects.begin())];
     if (f.choice(
             "Aspect", name, names,
-            "Width / height of the camera's frame. In the camera view, the picture outside the frame is dimmed. Saved with the scene.")) {
+            "Width / height of the camera's frame. In the camera view, the image outside the frame is dimmed. Saved with the scene.")) {
         const auto at = size_t(std::ranges::find(names, name) - names.begin());
         settings.frame_aspect.reset();
         if (own <= 0 || at > 0) settings.frame_aspect = aspects[at]; // index 0 is the camera's own aspect

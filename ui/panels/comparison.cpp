@@ -1,4 +1,4 @@
-// Comparison panel: which two pictures are compared, how, and their difference in numbers.
+// Comparison panel: which two images are compared, how, and their difference in numbers.
 #include "core/text.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/difference.h"
@@ -56,14 +56,14 @@ void draw_numbers(PanelContext& c, Fields& f, const Difference& d) {
 
 } // namespace
 
-void draw_layer_choice(Fields& f, Snapshot& picture, const char* label) {
-    if (!picture.layers) return;
-    const PictureLayers& layers = *picture.layers;
+void draw_layer_choice(Fields& f, Snapshot& image, const char* label) {
+    if (!image.layers) return;
+    const ImageLayers& layers = *image.layers;
     std::vector<const char*> names;
-    for (const PictureLayer& layer : layers.layers) names.push_back(layer.name.c_str());
+    for (const ImageLayer& layer : layers.layers) names.push_back(layer.name.c_str());
     int index = int(layers.chosen);
     const std::string tip = fmt::format("Channels {} of {}.", layers.layers[layers.chosen].channels, layers.file.filename().string());
-    if (f.choice(label, index, names, tip.c_str())) picture.choose_layer(size_t(index));
+    if (f.choice(label, index, names, tip.c_str())) image.choose_layer(size_t(index));
     if (const std::string range = range_text(layers); !range.empty()) f.info("Black to white", range);
 }
 
@@ -87,7 +87,7 @@ void draw_comparison_panel(PanelContext& c) {
             compare.kind = DifferenceKind(kind);
         const Difference* d = c.ui.difference.get();
         if (compare.a == compare.b)
-            quiet_text("A and B are the same picture.");
+            quiet_text("A and B are the same image.");
         else if (!d || d->kind != compare.kind)
             quiet_text("Comparing...");
         else if (!d->problem.empty())

@@ -48,7 +48,7 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
     const float em = ImGui::GetFontSize();
     view.metric =
         ErrorMetric(segments(c, "Error", {"RMSE", "relMSE"}, int(view.metric),
-                             "RMSE: root mean squared error, in the units of the picture. relMSE: mean of the squared error divided by the "
+                             "RMSE: root mean squared error, in the units of the image. relMSE: mean of the squared error divided by the "
                              "squared value, so dark regions count as much as bright ones."));
     same_line_if_fits(em * 10, em);
     view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "The x axis of the chart."));
@@ -66,12 +66,12 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
                       "Target error. The panel predicts from the fitted slope when it is reached. Drag, or Ctrl+click to type; 0 is none.");
     ImGui::BeginDisabled(!c.denoiser_problem.empty());
     toggle(c, "Denoised", view.denoised,
-           "Adds a curve of the denoised picture, over render time without denoising time. Its error cannot be estimated from the half "
-           "buffers. It is measured against the reference or, without one, against a later raw picture of this run that is accurate "
+           "Adds a curve of the denoised image, over render time without denoising time. Its error cannot be estimated from the half "
+           "buffers. It is measured against the reference or, without one, against a later raw image of this run that is accurate "
            "enough.");
     ImGui::EndDisabled();
     toggle(c, "Reference", view.reference,
-           "Measure against a reference: a picture with many samples and another seed. References stored by `blush converge` for "
+           "Measure against a reference: an image with many samples and another seed. References stored by `blush converge` for "
            "the same scene, "
            "view and size are found. A new one can be rendered.");
 }
@@ -79,14 +79,14 @@ void draw_settings(PanelContext& c, ConvergenceView& view) {
 void draw_reference(PanelContext& c, ConvergenceView& view) {
     using State = ReferenceStatus::State;
     if (!view.reference) return;
-    const ReferenceStatus& news = view.news;
+    const ReferenceStatus& news = view.reference_status;
     std::string text;
     const char* button = nullptr;
     switch (news.state) {
     case State::none: text = "The search for a reference begins after the first samples."; break;
     case State::looking: text = "Searching for a stored reference"; break;
     case State::absent:
-        text = "No stored reference for this picture.";
+        text = "No stored reference for this image.";
         button = "Render reference";
         break;
     case State::rendering:
@@ -108,7 +108,7 @@ void draw_reference(PanelContext& c, ConvergenceView& view) {
             news.state == State::rendering ? ConvergenceView::ReferenceRequest::stop : ConvergenceView::ReferenceRequest::render;
     c.ui.probe.record_last_item("Convergence/Reference/Render");
     tip_for_last_item(c.ui,
-                      "Renders twice as many samples as the picture or the current reference has. The reference is stored for later runs.");
+                      "Renders twice as many samples as the image or the current reference has. The reference is stored for later runs.");
 }
 
 // Draws crosshair lines through the point under the mouse, with its values beside it.
@@ -177,7 +177,7 @@ void draw_chart(PanelContext& c, const ConvergenceView& view, float height) {
     const std::vector<KeyEntry> key = key_of(p);
     float needed = ImGui::CalcTextSize(p.plot.title.c_str()).x;
     for (const KeyEntry& entry : key) needed += entry.width();
-    if (needed > l.right - l.left) p.plot.title.clear(); // the buttons above say what is plotted, too
+    if (needed > l.right - l.left) p.plot.title.clear(); // the buttons above already show the metric
     draw_plot(*ImGui::GetWindowDrawList(), p.plot, l, origin, font, em, plot_tones_dark());
     draw_key(key, l, origin);
     ImGui::InvisibleButton("chart", size);
@@ -200,8 +200,8 @@ void draw_summary(const ConvergenceView& view) {
     if (view.target() > 0) text += ",  " + time_left_text(time_left(live->record, Kind::estimated, view.metric, view.target()));
     wrapped_text(text);
     if (view.denoised && view.waiting > 0)
-        quiet_text(fmt::format("{} denoised {} for a raw picture{} accurate enough to measure {} against.", view.waiting,
-                               view.waiting == 1 ? "picture waits" : "pictures wait", view.reference ? ", or a reference," : "",
+        quiet_text(fmt::format("{} denoised {} for a raw image{} accurate enough to measure {} against.", view.waiting,
+                               view.waiting == 1 ? "image waits" : "images wait", view.reference ? ", or a reference," : "",
                                view.waiting == 1 ? "it" : "them"));
 }
 
@@ -225,7 +225,7 @@ void draw_files(PanelContext& c, ConvergenceView& view) {
     same_line_if_fits(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetFontSize());
     quiet_text(text);
     const std::string tip =
-        fmt::format("Of {:.1f} s of rendering in this run, recording errors took {:.3g} ms and measuring them against other pictures "
+        fmt::format("Of {:.1f} s of rendering in this run, recording errors took {:.3g} ms and measuring them against other images "
                     "{:.3g} ms. Estimating them took {:.3g} ms; the status bar and the stop rules need the estimate in any case. "
                     "Both are limited to half a per cent of the time, with one more measurement when rendering ends.",
                     cost.rendering, 1e3 * cost.recording, 1e3 * cost.measuring, 1e3 * cost.estimating);

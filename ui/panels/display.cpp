@@ -1,9 +1,9 @@
-// Display tab: denoising, view transform, exposure and white balance of the displayed picture. Nothing here restarts the render.
+// Display tab: denoising, view transform, exposure and white balance of the displayed image. Nothing here restarts the render.
 #include "core/math.h"
 #include "core/text.h"
 #include "scene/lights/color_temperature.h"
 #include "ui/panels/panels.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/widgets/widgets.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 namespace blush {
 namespace {
 
-void draw_denoised_figures(Fields& f, const DenoisedPicture& picture) {
-    const Denoised& d = picture.denoised;
-    f.info("Network", fmt::format("{}, {}", d.network, d.precision), "The network that denoised the picture, and its numeric precision.");
+void draw_denoised_figures(Fields& f, const DenoisedImage& image) {
+    const Denoised& d = image.denoised;
+    f.info("Network", fmt::format("{}, {}", d.network, d.precision), "The network that denoised the image, and its numeric precision.");
     f.info("Denoise time", fmt::format("{:.0f} ms", 1000 * d.seconds),
            "Denoising runs in parallel with rendering and takes at most a tenth of the time, except while the samples are few, and for the "
-           "last picture.");
+           "last image.");
     f.info("Mean energy", signed_number(energy_change_percent(d), 2) + " %",
            "Change of the mean luminance by the denoiser. The estimated error is always that of the raw image.");
     if (d.sanitised > 0)
@@ -83,14 +83,14 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
               .format = "%+.2f"});
     int rule = int(v.auto_exposure);
     if (f.choice("Auto exposure", rule, names,
-                 "Manual, or computed from the current picture: its log-average luminance becomes middle grey (0.18), or the brightest one "
+                 "Manual, or computed from the current image: its log-average luminance becomes middle grey (0.18), or the brightest one "
                  "per cent "
                  "of its pixels is above white (1).")) {
         if (by_hand || rule == int(AutoExposure::off)) v.exposure_ev = rule == int(AutoExposure::off) ? c.shown_view().exposure_ev : 0;
         v.auto_exposure = AutoExposure(rule);
     }
     if (v.auto_exposure != AutoExposure::off) f.info("Exposure", signed_number(c.shown_view().exposure_ev, 2) + " EV");
-    if (f.button("Meter once", "Sets the exposure once, from the log-average luminance of the current picture."))
+    if (f.button("Meter once", "Sets the exposure once, from the log-average luminance of the current image."))
         c.ui.commands.push_back(Command::exposure_meter);
     f.number("Gamma", v.gamma,
              {.min = 0.2f,
@@ -134,15 +134,15 @@ void draw_white_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     draw_white_temperature(c, f, v);
     f.color("White", v.white, {1, 1, 1}, "The colour that is shown as neutral white (chromatic adaptation). EXR files do not change.");
     if (v.white.x + v.white.y + v.white.z <= 0) v.white = {1, 1, 1};
-    if (f.button("Pick in the picture", "Click a place in the picture that should be white or grey."))
+    if (f.button("Pick in the image", "Click a place in the image that should be white or grey."))
         c.ui.commands.push_back(Command::pick_white);
     if (v.white != Vec3{1, 1, 1} && f.button("As rendered", "No white balance.")) c.ui.commands.push_back(Command::reset_white);
 }
 
-// The range of the picture's values, for Fit to the picture.
-FalseColor fitted_to_picture(const PanelContext& c, const FalseColor& scale) {
+// The range of the image's values, for Fit to the image.
+FalseColor fitted_to_image(const PanelContext& c, const FalseColor& scale) {
     if (scale.of == FalseColor::Of::nits) return fitted(scale, c.frame->rgba, 4);
-    return fitted(scale, pixels_of(*c.frame, {PictureView::Show::illuminance}), 4);
+    return fitted(scale, pixels_of(*c.frame, {ImageView::Show::illuminance}), 4);
 }
 
 void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
@@ -163,9 +163,8 @@ void draw_false_color_fields(PanelContext& c, Fields& f, ViewSettings& v) {
     f.number(
         "To", scale.high,
         {.min = scale.low * 1.001f, .max = 1e9f, .reset = 1000, .unit = unit, .tip = "Upper end of the scale. Larger values are white."});
-    if (f.button("Fit to the picture", "Sets the range without the darkest and the brightest one per cent of the pixels.") &&
-        c.has_picture()) {
-        v.false_color = fitted_to_picture(c, scale);
+    if (f.button("Fit to the image", "Sets the range without the darkest and the brightest one per cent of the pixels.") && c.has_image()) {
+        v.false_color = fitted_to_image(c, scale);
         c.apply(SetView{v});
     }
 }

@@ -41,7 +41,7 @@ void finish(PanelContext& c, const std::filesystem::path& path) {
 void take_typed(PanelContext& c) {
     FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
-    const std::filesystem::path path = meant_path(b.typed, b.folder);
+    const std::filesystem::path path = absolute_path(b.typed, b.folder);
     if (std::filesystem::is_directory(path, unreadable))
         enter(b, path);
     else if (b.use == Use::save_scene && std::filesystem::is_directory(path.parent_path(), unreadable))
@@ -77,7 +77,7 @@ void choose_by_arrows(FileBrowser& b, const std::vector<FileEntry>& entries) {
     const auto at = std::ranges::find(entries, b.chosen, &FileEntry::name);
     const ptrdiff_t last = std::ssize(entries) - 1;
     const ptrdiff_t next = at == entries.end() ? (step > 0 ? 0 : last) : std::clamp(at - entries.begin() + step, ptrdiff_t(0), last);
-    ImGui::ClearActiveID(); // Enter now opens what is selected
+    ImGui::ClearActiveID(); // Enter now opens the selected entry
     choose(b, entries[size_t(next)]);
     b.scroll_to_chosen = true;
 }
@@ -90,7 +90,7 @@ bool enter_opens_chosen(const FileBrowser& b) {
 // Tab completes the path.
 int complete(ImGuiInputTextCallbackData* data) {
     const FileBrowser& b = *static_cast<const FileBrowser*>(data->UserData);
-    const std::string completed = completed_path(meant_path({data->Buf, size_t(data->BufTextLen)}, b.folder).string(), filter_of(b.use));
+    const std::string completed = completed_path(absolute_path({data->Buf, size_t(data->BufTextLen)}, b.folder).string(), filter_of(b.use));
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, completed.c_str());
     return 0;
@@ -142,14 +142,14 @@ void draw_places(PanelContext& c, float width, float height) {
 }
 
 // A thumbnail for a visible file that has one, else an icon.
-void draw_entry_picture(PanelContext& c, const FileEntry& entry, float height) {
+void draw_entry_image(PanelContext& c, const FileEntry& entry, float height) {
     const float width = height * Thumbnail::width / Thumbnail::height;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImTextureID picture = {};
+    ImTextureID image = {};
     if (!entry.folder && c.file_thumbnail && ImGui::IsRectVisible({width, height}))
-        picture = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
-    if (picture) {
-        ImGui::Image(picture, {width, height});
+        image = c.file_thumbnail((c.ui.browser->folder / entry.name).string());
+    if (image) {
+        ImGui::Image(image, {width, height});
         c.ui.probe.record_last_item("Browser/Thumbnail/" + entry.name);
         return;
     }
@@ -164,9 +164,9 @@ void draw_entry(PanelContext& c, const FileEntry& entry) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const ExtensionFilter& filter = filter_of(b.use);
-    const bool pictured = filter != table_files && filter != photometric_files;
-    const float height = ImGui::GetTextLineHeight() * (pictured && !entry.folder ? 2.4f : 1.f);
-    draw_entry_picture(c, entry, height);
+    const bool imaged = filter != table_files && filter != photometric_files;
+    const float height = ImGui::GetTextLineHeight() * (imaged && !entry.folder ? 2.4f : 1.f);
+    draw_entry_image(c, entry, height);
     ImGui::SameLine();
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, 0.5f});
     const std::string shown = elided_middle(entry.name, ImGui::GetContentRegionAvail().x);
@@ -225,7 +225,7 @@ void draw_buttons(PanelContext& c) {
     ImGui::SameLine();
     if (b.use == Use::save_scene) {
         std::error_code unreadable;
-        if (ImGui::Button(std::filesystem::is_regular_file(meant_path(b.typed, b.folder), unreadable) ? "Replace" : "Save", {width, 0}))
+        if (ImGui::Button(std::filesystem::is_regular_file(absolute_path(b.typed, b.folder), unreadable) ? "Replace" : "Save", {width, 0}))
             take_typed(c);
     } else {
         const bool folder = b.use == Use::snapshot_folder;

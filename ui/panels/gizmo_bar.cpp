@@ -1,4 +1,4 @@
-// Toolbar at the left of the picture that selects the gizmo and its axes; visible while something is selected.
+// Toolbar at the left of the image that selects the gizmo and its axes; visible while something is selected.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/tooltip.h"
@@ -21,11 +21,11 @@ bool button(PanelContext& c, const char* name, Icon icon, bool chosen, const std
 
 } // namespace
 
-void draw_gizmo_bar(PanelContext& c, const Region& picture) {
+void draw_gizmo_bar(PanelContext& c, const Region& image) {
     if (!c.ui.settings.overlays || c.ui.transform.active || !c.scene().nodes.contains(c.ui.selected)) return;
     const float em = ImGui::GetFontSize();
-    if (picture.height < em * 19) return; // it would cover the environment dial; keys do the same
-    ImGui::SetNextWindowPos({std::max(picture.x, 0.f) + em * 0.5f, picture.y + picture.height / 2}, ImGuiCond_Always, {0, 0.5f});
+    if (image.height < em * 19) return; // it would cover the environment dial; keys do the same
+    ImGui::SetNextWindowPos({std::max(image.x, 0.f) + em * 0.5f, image.y + image.height / 2}, ImGuiCond_Always, {0, 0.5f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em / 4);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em * 0.2f, em * 0.2f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});

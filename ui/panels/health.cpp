@@ -70,7 +70,7 @@ void draw_faults(const Health& health) {
 
 void draw_dropped(PanelContext& c, const Health& health) {
     if (health.truncated > 0)
-        quiet_text(fmt::format("{} paths were truncated at the maximum path length; this darkens the picture.", health.truncated));
+        quiet_text(fmt::format("{} paths were truncated at the maximum path length; this darkens the image.", health.truncated));
     if (health.dropped() == 0) return quiet_text("No invalid samples: no radiance was NaN, infinite or negative.");
     quiet_text(fmt::format("{} samples dropped: {} NaN, {} infinite, {} negative. Each pixel is the mean of its valid samples.",
                            health.dropped(), health.nan, health.infinite, health.negative));
@@ -104,7 +104,7 @@ void draw_clamping(PanelContext& c) {
     RenderSettings r = c.project().render;
     Fields f(c.ui, "Health");
     bool on = r.clamp.limit > 0;
-    if (f.checkbox("Clamp", on, "Limit the radiance of bright samples. It hides fireflies but is biased: the picture gets too dark."))
+    if (f.checkbox("Clamp", on, "Limit the radiance of bright samples. It hides fireflies but is biased: the image gets too dark."))
         r.clamp.limit = on ? 10.f : 0.f;
     if (on) {
         f.number(
@@ -113,7 +113,7 @@ void draw_clamping(PanelContext& c) {
         f.checkbox("All light", r.clamp.all, "Clamp all light. Otherwise only indirect light is clamped.");
     }
     if (f.changed()) c.apply(SetRender{r}, f.gesture());
-    if (!on) return quiet_text("Off: the picture is not changed.");
+    if (!on) return quiet_text("Off: the image is not changed.");
     const ClampReport& report = c.frame->clamp;
     quiet_text(fmt::format("Biased: removes {:.3g} % of the light, from {} samples.", 100 * report.share, report.samples));
 }

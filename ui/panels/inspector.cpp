@@ -41,7 +41,7 @@ void draw_selection(PanelContext& c) {
     const Node* node = c.scene().nodes.find(c.ui.selected);
     if (!node) {
         draw_material_panel(c, {});
-        if (!c.ui.selected_material) quiet_text("Nothing is selected. Click an object in the picture or in the outliner.");
+        if (!c.ui.selected_material) quiet_text("Nothing is selected. Click an object in the image or in the outliner.");
         return;
     }
     const Id<Node> id = c.ui.selected;

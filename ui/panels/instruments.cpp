@@ -82,7 +82,7 @@ void toggle_instrument(PanelContext& c, const std::string& id) {
     c.ui.docks.to_front.insert(id);
 }
 
-void recall_instruments(PanelContext c, const std::string& file) {
+void restore_instruments(PanelContext c, const std::string& file) {
     const auto found = std::ranges::find(c.ui.settings.scenes, file, &SceneMemory::file);
     if (found == c.ui.settings.scenes.end()) return;
     for (const std::string& id : found->instruments)

@@ -1,4 +1,4 @@
-// The instruments: panels that measure, compare or analyse the picture, or list its lights and edits. They open in the docks
+// The instruments: panels that measure, compare or analyse the image, or list its lights and edits. They open in the docks
 // beside it.
 #pragma once
 
@@ -16,6 +16,6 @@ std::span<const Instrument> instruments();
 void toggle_instrument(PanelContext& c, const std::string& id);
 
 // Opens the instruments that were open when the scene was last closed.
-void recall_instruments(PanelContext c, const std::string& file);
+void restore_instruments(PanelContext c, const std::string& file);
 
 } // namespace blush

@@ -167,7 +167,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::toggle_denoise, c.denoiser_problem.empty(), nullptr, c.ui.denoise.wants_denoised());
     ImGui::Separator();
     item(c, Command::render_region, c.frame != nullptr);
-    item(c, Command::render_all, c.project().render.region != PictureRegion{});
+    item(c, Command::render_all, c.project().render.region != ImageRegion{});
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
     item(c, Command::undelete_snapshot, c.ui.snapshots.can_put_back());

@@ -14,7 +14,7 @@ namespace {
 // Returns the meters after edits in the table: renamed or removed.
 std::vector<LightMeter> draw_table(PanelContext& c) {
     std::vector<LightMeter> meters = c.project().view.meters;
-    const auto& readings = c.ui.meters.state.answer;
+    const auto& readings = c.ui.meters.state.output;
     size_t gone = meters.size();
     if (!ImGui::BeginTable("meters", 4, ImGuiTableFlags_SizingFixedFit)) return meters;
     const float em = ImGui::GetFontSize();

@@ -7,13 +7,13 @@
 namespace blush {
 namespace {
 
-void draw_texts(const Question& question) {
+void draw_texts(const ModalDialog& dialog) {
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
-    ImGui::TextUnformatted(question.text.c_str());
-    if (!question.details.empty()) {
+    ImGui::TextUnformatted(dialog.text.c_str());
+    if (!dialog.details.empty()) {
         ImGui::Spacing();
         ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
-        ImGui::TextUnformatted(question.details.c_str());
+        ImGui::TextUnformatted(dialog.details.c_str());
         ImGui::PopStyleColor();
     }
     ImGui::PopTextWrapPos();
@@ -22,51 +22,51 @@ void draw_texts(const Question& question) {
 }
 
 // Tab and the arrow keys move the focus along the row, in which the first choice is the last button.
-void move_focus(Question& question) {
+void move_focus(ModalDialog& dialog) {
     const auto pressed = [](int key) { return ImGui::IsKeyPressed(key); };
     const bool back = pressed(key::left) || (pressed(key::tab) && ImGui::GetIO().KeyShift);
     const bool forward = pressed(key::right) || (pressed(key::tab) && !ImGui::GetIO().KeyShift);
-    const size_t count = question.choices.size();
-    if (back) question.focused = (question.focused + 1) % count;
-    if (forward) question.focused = (question.focused + count - 1) % count;
+    const size_t count = dialog.choices.size();
+    if (back) dialog.focused = (dialog.focused + 1) % count;
+    if (forward) dialog.focused = (dialog.focused + count - 1) % count;
 }
 
-void choose_by_key(Question& question) {
+void choose_by_key(ModalDialog& dialog) {
     const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-    if (pressed(key::escape)) question.chosen = question.choices.size() - 1;
-    if (pressed(key::enter) || pressed(key::pad_enter) || pressed(key::space)) question.chosen = question.focused;
+    if (pressed(key::escape)) dialog.chosen = dialog.choices.size() - 1;
+    if (pressed(key::enter) || pressed(key::pad_enter) || pressed(key::space)) dialog.chosen = dialog.focused;
 }
 
 // Right-aligned. The first choice is the outermost, away from the others.
-void draw_choices(PanelContext& c, Question& question) {
+void draw_choices(PanelContext& c, ModalDialog& dialog) {
     const float width = ImGui::GetFontSize() * 7, gap = ImGui::GetStyle().ItemSpacing.x;
-    const float all = float(question.choices.size()) * (width + gap) - gap;
+    const float all = float(dialog.choices.size()) * (width + gap) - gap;
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - all));
-    move_focus(question);
-    for (size_t i = question.choices.size(); i-- > 0;) {
-        if (ImGui::Button(question.choices[i].c_str(), {width, 0})) question.chosen = i;
-        if (i == question.focused)
+    move_focus(dialog);
+    for (size_t i = dialog.choices.size(); i-- > 0;) {
+        if (ImGui::Button(dialog.choices[i].c_str(), {width, 0})) dialog.chosen = i;
+        if (i == dialog.focused)
             ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), tone::text,
                                                 ImGui::GetStyle().FrameRounding);
-        c.ui.probe.record_last_item("Question/" + question.choices[i]);
+        c.ui.probe.record_last_item("Dialog/" + dialog.choices[i]);
         if (i > 0) ImGui::SameLine();
     }
-    choose_by_key(question);
+    choose_by_key(dialog);
 }
 
 } // namespace
 
-void draw_question(PanelContext& c) {
-    if (!c.ui.question) return;
-    constexpr const char* name = "Blush###question";
+void draw_modal_dialog(PanelContext& c) {
+    if (!c.ui.dialog) return;
+    constexpr const char* name = "Blush###dialog";
     if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar))
         return;
-    draw_texts(*c.ui.question);
-    draw_choices(c, *c.ui.question);
-    if (c.ui.question->chosen) ImGui::CloseCurrentPopup();
+    draw_texts(*c.ui.dialog);
+    draw_choices(c, *c.ui.dialog);
+    if (c.ui.dialog->chosen) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

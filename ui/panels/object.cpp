@@ -59,7 +59,7 @@ void draw_object_panel(PanelContext& c, Id<Node> id) {
     f.text("Name", node.name, "Name in the outliner, the history and saved files.");
     f.checkbox("Visible", node.visible, "If off, the node and its children are invisible, cast no shadows and emit no light.");
     f.checkbox("Shadow catcher", node.shadow_catcher,
-               "The camera sees only the shadows on it, in the picture's alpha. Reflections and indirect light treat it as a normal "
+               "The camera sees only the shadows on it, in the image's alpha. Reflections and indirect light treat it as a normal "
                "object. Includes all children.");
     if (const Mesh* mesh = c.scene().meshes.find(node.mesh)) {
         f.info("Mesh", fmt::format("{} triangles{}", grouped(triangle_count(*mesh)),

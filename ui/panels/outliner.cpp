@@ -94,7 +94,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     if (c.scene().lights.contains(node.light)) {
         drag_light(id, name);
         const std::string& group = c.scene().lights.find(node.light)->group;
-        if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
+        if (const auto dropped = dropped_light()) put_dropped_into_group(c, *dropped, group);
     }
     const Mesh* mesh = c.scene().meshes.find(node.mesh);
     rows.clicks.row(id, ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen(),

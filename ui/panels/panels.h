@@ -39,7 +39,7 @@ void draw_display_panel(PanelContext& c);
 // Instruments (instruments.h), each into the current ImGui window.
 void draw_history(PanelContext& c);
 // Chooses which layer of an image from another program is shown; draws nothing for a snapshot.
-void draw_layer_choice(Fields& f, Snapshot& picture, const char* label);
+void draw_layer_choice(Fields& f, Snapshot& image, const char* label);
 void draw_comparison_panel(PanelContext& c);
 void draw_snapshot_panel(PanelContext& c); // name, note and file of one snapshot
 void draw_pixel_panel(PanelContext& c);
@@ -51,22 +51,22 @@ void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
-void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: what was measured
+void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: the measurements
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
-// Runs the meters, even if their panel is closed: the picture shows their readings.
+// Runs the meters, even if their panel is closed: the image shows their readings.
 void follow_meters(PanelContext& c);
 
 // Drawn above everything else, each in its own window while it is open.
 void draw_file_browser(PanelContext& c);
 void draw_shortcut_sheet(PanelContext& c);
 void draw_pixel_popup(PanelContext& c); // replaces the panel while panels are hidden
-void draw_question(PanelContext& c);
+void draw_modal_dialog(PanelContext& c);
 void draw_start_page(PanelContext& c); // also an instrument
 // At the upper edge of the viewport, while the scene has no light at all.
 void draw_no_light_banner(PanelContext& c, const Region& viewport);
-// At the left of the picture: which gizmo is shown, and its axes.
-void draw_gizmo_bar(PanelContext& c, const Region& picture);
+// At the left of the image: which gizmo is shown, and its axes.
+void draw_gizmo_bar(PanelContext& c, const Region& image);
 
 // A running background job.
 struct RunningJob {

@@ -44,8 +44,8 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
 void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
     const AovView& view = c.ui.aov;
     const size_t k = size_t(view.index);
-    if (view.show == PictureView::Show::group && k < f.groups.size()) row(c, name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
-    if (view.show == PictureView::Show::bounces && k < f.bounces.size())
+    if (view.show == ImageView::Show::group && k < f.groups.size()) row(c, name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
+    if (view.show == ImageView::Show::bounces && k < f.bounces.size())
         row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
 }
 
@@ -75,7 +75,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
             fmt::format("{}  {}  {}", signed_number(f.normal[i].x, 3), signed_number(f.normal[i].y, 3), signed_number(f.normal[i].z, 3)));
     if (!f.standard_error.empty()) row(c, "Standard error", triple(f.standard_error[i]));
     if (!f.pixel_samples.empty()) row(c, "Samples", fmt::format("{:.0f}", f.pixel_samples[i]));
-    if (c.ui.aov.show == PictureView::Show::samples && f.pixel_samples.empty()) row(c, "Samples", fmt::format("{}", f.samples));
+    if (c.ui.aov.show == ImageView::Show::samples && f.pixel_samples.empty()) row(c, "Samples", fmt::format("{}", f.samples));
     draw_planes(c, f, i);
     if (!f.depth.empty()) row(c, "Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
     if (!f.object_id.empty()) {
@@ -91,7 +91,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
 } // namespace
 
 void draw_pixel_panel(PanelContext& c) {
-    if (!c.has_picture()) return quiet_text("Waiting for the first render.");
+    if (!c.has_image()) return quiet_text("Waiting for the first render.");
     if (!c.ui.pixel || !ImGui::BeginTable("values", 2)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);

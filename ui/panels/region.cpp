@@ -54,9 +54,9 @@ void draw_statistics(PanelContext& c, const RegionStatistics& s) {
 
 void draw_region_panel(PanelContext& c) {
     if (!c.project().view.measured) return;
-    if (!c.has_picture()) return quiet_text("Waiting for the first render.");
-    if (c.ui.region.ask(c.shown_picture(), region_statistics)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
-    if (const RegionStatistics* s = c.ui.region.answer()) draw_statistics(c, *s);
+    if (!c.has_image()) return quiet_text("Waiting for the first render.");
+    if (c.ui.region.update(c.shown_image(), region_statistics)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
+    if (const RegionStatistics* s = c.ui.region.output()) draw_statistics(c, *s);
 }
 
 } // namespace blush

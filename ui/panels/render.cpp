@@ -41,12 +41,12 @@ void draw_size(Fields& f, PanelContext& c, RenderSettings& r) {
               .format = "%.2f"});
     f.info("", fmt::format("{} × {} pixels", c.render_width, c.render_height));
     const PixelRect part = pixels_of(r.region, std::max(c.render_width, 1), std::max(c.render_height, 1));
-    if (r.region == PictureRegion{}) {
-        if (f.button("Render region", "Drag a rectangle in the picture. Only its pixels are rendered."))
+    if (r.region == ImageRegion{}) {
+        if (f.button("Render region", "Drag a rectangle in the image. Only its pixels are rendered."))
             c.ui.commands.push_back(Command::render_region);
     } else {
         f.info("Region", fmt::format("{} × {} from {}, {}", part.x1 - part.x0, part.y1 - part.y0, part.x0, part.y0));
-        if (f.button("Render whole picture")) c.ui.commands.push_back(Command::render_all);
+        if (f.button("Render whole image")) c.ui.commands.push_back(Command::render_all);
     }
 }
 

@@ -89,8 +89,8 @@ void draw_bias(const RouletteReport& r) {
     const std::string size = fmt::format("{} ± {:.3f} %", signed_number(100 * whole.difference, 3), 200 * whole.error);
     ImGui::PushStyleColor(ImGuiCol_Text, r.biased() ? tone::failure : tone::text);
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(r.biased() ? fmt::format("Biased: the picture is off by {}.", size).c_str()
-                                      : fmt::format("Unbiased within noise: the picture differs by {}.", size).c_str());
+    ImGui::TextUnformatted(r.biased() ? fmt::format("Biased: the image is off by {}.", size).c_str()
+                                      : fmt::format("Unbiased within noise: the image differs by {}.", size).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     if (!ImGui::BeginTable("bias", 3, ImGuiTableFlags_SizingStretchProp)) return;
@@ -120,8 +120,8 @@ void draw_measured(PanelContext& c, RouletteView& view) {
     c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.25);
     const RouletteRunner::State state = view.runner->state();
     if (!state.failure.empty()) return quiet_text(state.failure);
-    if (state.answer.rounds == 0) return quiet_text("The first round is being rendered.");
-    draw_roulette_report(c, state.answer);
+    if (state.output.rounds == 0) return quiet_text("The first round is being rendered.");
+    draw_roulette_report(c, state.output);
 }
 
 } // namespace
@@ -140,7 +140,7 @@ void draw_roulette_panel(PanelContext& c) {
     draw_roulette_fields(f, r.roulette);
     quiet_text(formula(r.roulette));
     int map = int(view.map);
-    if (f.choice("Viewport", map, RouletteView::map_names, "What the viewport shows: the picture, or a map of the effect of roulette."))
+    if (f.choice("Viewport", map, RouletteView::map_names, "What the viewport shows: the image, or a map of the effect of roulette."))
         view.map = RouletteView::Map(map);
     else if (f.changed())
         c.apply(SetRender{r}, f.gesture());

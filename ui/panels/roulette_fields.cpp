@@ -7,7 +7,7 @@ void draw_roulette_fields(Fields& f, Roulette& r) {
     int rule = int(r.rule);
     if (f.choice("Roulette", rule, rules,
                  "Survival probability of a path after a bounce, as a function of its throughput. Survivors are weighted up, so "
-                 "the result is unbiased. The biased cut omits the weight and darkens the picture, as a demonstration."))
+                 "the result is unbiased. The biased cut omits the weight and darkens the image, as a demonstration."))
         r.rule = Roulette::Rule(rule);
     if (r.rule == Roulette::Rule::off) return;
     int64_t start = r.start;
@@ -27,7 +27,7 @@ void draw_roulette_fields(Fields& f, Roulette& r) {
 
 void draw_bounce_limit_fields(Fields& f, RenderSettings& r) {
     bool unlimited = r.max_bounces == unlimited_bounces;
-    if (f.checkbox("All bounces", unlimited, "No limit on the number of bounces. A limit darkens the picture."))
+    if (f.checkbox("All bounces", unlimited, "No limit on the number of bounces. A limit darkens the image."))
         r.max_bounces = unlimited ? unlimited_bounces : 8;
     if (unlimited) return;
     int64_t bounces = r.max_bounces;

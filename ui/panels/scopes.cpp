@@ -120,10 +120,10 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
 void draw_scopes_panel(PanelContext& c) {
     ScopesView& view = c.ui.scopes;
     const float em = ImGui::GetFontSize();
-    if (c.has_picture() && view.scopes.ask(c.shown_picture(), scopes_of))
+    if (c.has_image() && view.scopes.update(c.shown_image(), scopes_of))
         c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     static const Scopes nothing;
-    const Scopes& scopes = view.scopes.answer() ? *view.scopes.answer() : nothing;
+    const Scopes& scopes = view.scopes.output() ? *view.scopes.output() : nothing;
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const bool flat = room.x > 2.5f * room.y; // all four side by side
     const float labels = (scopes.step > 1 ? 1.4f : 0) * em;

@@ -17,7 +17,7 @@ std::string text_of_samples(const Snapshot& s) {
 
 void draw_facts(Fields& f, const Snapshot& s) {
     f.info("Contents", s.figures());
-    if (s.pictures.frame) f.info("Size", fmt::format("{} × {}", s.pictures.frame->width, s.pictures.frame->height));
+    if (s.images.frame) f.info("Size", fmt::format("{} × {}", s.images.frame->width, s.images.frame->height));
     f.info("Resumes from", text_of_samples(s),
            "After Restore, rendering continues with these samples. Without samples the image is rendered from the start.");
     if (!s.file.empty()) f.info("File", s.file.filename().string(), s.file.string().c_str());
@@ -26,7 +26,7 @@ void draw_facts(Fields& f, const Snapshot& s) {
 void draw_memory(PanelContext& c, Fields& f, Snapshot& s) {
     constexpr double mib = 1 << 20;
     f.checkbox("Stay in memory", s.pinned,
-               "Keep picture and samples in memory. Otherwise they can be unloaded and are read from the file when needed.");
+               "Keep image and samples in memory. Otherwise they can be unloaded and are read from the file when needed.");
     f.integer("Memory, MiB", c.ui.settings.snapshot_memory, 1, int64_t(1) << 30, 2048,
               "Memory limit for all snapshots of the strip. Above it, those not used for longest are written, if they are not yet, and "
               "unloaded.");
@@ -46,7 +46,7 @@ void draw_snapshot_panel(PanelContext& c) {
     if (renamed && !s->file.empty()) v.requests.push_back({SnapshotRequest::What::renamed, s->id});
     if (s->layers) {
         f.info("File", s->layers->file.filename().string(), s->layers->file.string().c_str());
-        f.info("Size", fmt::format("{} × {}", s->pictures.frame->width, s->pictures.frame->height));
+        f.info("Size", fmt::format("{} × {}", s->images.frame->width, s->images.frame->height));
     } else {
         draw_facts(f, *s);
     }

@@ -45,7 +45,7 @@ void draw_specialisation_section(PanelContext& c) {
     if (!section(c.ui, "Specialisation", false)) return;
     if (!c.frame || !c.frame->feature_report) return quiet_text("Nothing rendered yet.");
     FeatureReport feature_report = *c.frame->feature_report;
-    if (c.window_ledger) feature_report.insert(feature_report.end(), c.window_ledger->begin(), c.window_ledger->end());
+    if (c.window_features) feature_report.insert(feature_report.end(), c.window_features->begin(), c.window_features->end());
     quiet_text(fmt::format("{} of {} optional features are not compiled in or not built, because this scene does not need them. Kernel {}; "
                            "`blush info --measure` measures how much faster it is than the kernel with all features.",
                            count(feature_report, false), feature_report.size(), c.frame->kernel));

@@ -1,4 +1,4 @@
-// Start page in a dock below the picture: demos and recent files. It closes with Esc, or when a file is opened.
+// Start page in a dock below the image: demos and recent files. It closes with Esc, or when a file is opened.
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
@@ -26,7 +26,7 @@ bool draw_card(PanelContext& c, const std::string& file) {
     tip_for_last_item(c.ui, file.c_str());
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(low, high, tone::surround);
-    if (const ImTextureID picture = c.file_thumbnail ? c.file_thumbnail(file) : ImTextureID{}) draw.AddImage(picture, low, high);
+    if (const ImTextureID image = c.file_thumbnail ? c.file_thumbnail(file) : ImTextureID{}) draw.AddImage(image, low, high);
     if (ImGui::IsItemHovered()) draw.AddRect(low, high, tone::text);
     draw.AddText({low.x, high.y + 0.2f * em}, tone::text, elided(name, width).c_str());
     ImGui::PopID();

@@ -77,13 +77,13 @@ void draw_progress_line(double progress) {
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + std::floor(width * float(progress)), low.y + height}, tone::field_filled);
 }
 
-// Which picture is shown. The error cell always refers to the raw picture; the change of energy refers to the denoiser.
+// Which image is shown. The error cell always refers to the raw image; the change of energy refers to the denoiser.
 void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     const DenoiseView& view = c.ui.denoise;
     if (!view.wants_denoised()) return cells.push_back({4, "raw", "The raw image is shown, without denoising.", tone::dim_text, 6});
-    const DenoisedPicture* denoised = c.denoised.get();
+    const DenoisedImage* denoised = c.denoised.get();
     cells.push_back(
-        {19, shown_text(view, frame, denoised), "What is shown, and how far the denoised picture is behind the raw one.", tone::text, 7});
+        {19, shown_text(view, frame, denoised), "The displayed image, and how far the denoised one is behind the raw one.", tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
                      "Change of the mean luminance by the denoiser. The estimated error is that of the raw image.", tone::text, 3});
@@ -93,7 +93,7 @@ Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
     if (!e.known) return {9, "error not known yet", "Not enough samples yet to estimate the error.", tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
-    const std::string of = older ? fmt::format("the picture as it was after {} samples per pixel", frame.error_samples) : "the picture";
+    const std::string of = older ? fmt::format("the image as it was after {} samples per pixel", frame.error_samples) : "the image";
     return {older ? 14.f : 9.f,
             fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
             fmt::format(
@@ -126,7 +126,7 @@ void add_frame_cells(const PanelContext& c, Cells& cells, const Frame& frame) {
     cells.push_back({9, frame.kernel, "The render kernel: instruction set / features that the scene needs.", tone::dim_text, 1});
     if (frame.health.dropped() > 0)
         cells.push_back({12, fmt::format("{} invalid samples dropped", frame.health.dropped()),
-                         "Samples that were NaN, infinite or negative. They are excluded from the picture. See the Health panel.",
+                         "Samples that were NaN, infinite or negative. They are excluded from the image. See the Health panel.",
                          tone::warning, 7});
 }
 
@@ -150,8 +150,8 @@ void draw_status_bar(PanelContext& c) {
                  failed ? tone::failure : tone::text, 10}};
     if (!failed && c.frame) add_frame_cells(c, cells, *c.frame);
     if (c.ui.zoom.scale > 0)
-        cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale),
-                         "Zoom: screen pixels per picture pixel. Z switches back to fit.", tone::dim_text, 5});
+        cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Zoom: screen pixels per image pixel. Z switches back to fit.",
+                         tone::dim_text, 5});
     const std::string exposure = exposure_text(c);
     const float right = width - guide_mark_width() - (exposure.empty() ? 0 : left + ImGui::CalcTextSize(exposure.c_str()).x);
     if (failed)

@@ -1,4 +1,4 @@
-// Timeline: the animation clip and the time. A row below the picture, for scenes with animations.
+// Timeline: the animation clip and the time. A row below the image, for scenes with animations.
 #include "ui/gl/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/guide_mark.h"

@@ -35,7 +35,7 @@ ImU32 edge_of(Toast::Kind kind) {
     return kind == Toast::Kind::failure ? tone::failure : kind == Toast::Kind::warning ? tone::warning : IM_COL32(90, 90, 90, 255);
 }
 
-// Maximum width of a card: it must not cover a small picture completely.
+// Maximum width of a card: it must not cover a small image completely.
 float text_width(const Region& viewport) {
     const float em = ImGui::GetFontSize();
     return std::clamp(viewport.width - 4 * em, 12 * em, 28 * em);
@@ -71,7 +71,7 @@ bool draw_job(PanelContext& c, const RunningJob& job, float right, float width, 
 
 void draw_toasts(PanelContext& c, float right, float width, float& bottom) {
     const auto now = std::chrono::steady_clock::now();
-    c.ui.toasts.expire(now);
+    c.ui.toasts.remove_expired(now);
     std::optional<size_t> dismissed;
     const std::vector<Toast>& toasts = c.ui.toasts.all();
     for (size_t i = toasts.size(); i-- > 0;) {

@@ -1,7 +1,7 @@
 #include "ui/snapshots/aov_bar.h"
 
 #include "ui/snapshots/aov_pixels.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/guide_mark.h"
 #include "ui/widgets/tooltip.h"
@@ -14,21 +14,20 @@ namespace blush {
 namespace {
 
 void draw_list(PanelContext& c, const Frame* frame) {
-    PictureView::Show before = PictureView::Show::beauty;
+    ImageView::Show before = ImageView::Show::beauty;
     for (const AovEntry& e : aov_list(frame)) {
-        if (e.view.show != before && (e.view.show == PictureView::Show::group || e.view.show == PictureView::Show::bounces))
-            ImGui::Separator();
+        if (e.view.show != before && (e.view.show == ImageView::Show::group || e.view.show == ImageView::Show::bounces)) ImGui::Separator();
         before = e.view.show;
         const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
         const std::string shown = elided(e.name, ImGui::GetFontSize() * 20);
         if (ImGui::Selectable((shown + "###" + e.name).c_str(), c.ui.aov == e.view, flags)) show_aov(c, e.view);
         if (c.ui.aov == e.view) ImGui::SetItemDefaultFocus(); // arrow keys go on from there
-        c.ui.probe.record_last_item("Viewport/Pass/" + e.name);
+        c.ui.probe.record_last_item("Viewport/AOV/" + e.name);
         if (!e.needs.empty() || shown != e.name) tip_for_last_item(c.ui, (e.needs.empty() ? e.name : e.needs).c_str());
     }
 }
 
-// On a field, so that it is readable over any picture.
+// On a field, so that it is readable over any image.
 void draw_mark(PanelContext& c) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetFrameHeight();
@@ -40,10 +39,10 @@ void draw_mark(PanelContext& c) {
 } // namespace
 
 void show_aov(PanelContext& c, const AovView& view) {
-    const bool lacks = view.show == PictureView::Show::bounces && c.frame && c.frame->bounces.empty();
+    const bool lacks = view.show == ImageView::Show::bounces && c.frame && c.frame->bounces.empty();
     c.ui.aov = view;
-    c.ui.bounces.mode = BouncesView::Mode::picture; // one of the two modes controls the viewport
-    if (lacks) c.ui.toasts.note("Bounce passes are switched on: the render restarts");
+    c.ui.bounces.mode = BouncesView::Mode::image; // one of the two modes controls the viewport
+    if (lacks) c.ui.toasts.note("Bounce AOVs are switched on: the render restarts");
 }
 
 void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
@@ -54,7 +53,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-    ImGui::Begin("passes", nullptr,
+    ImGui::Begin("aovs", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PopStyleVar(3);
@@ -62,10 +61,10 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     const Frame* frame = c.frame.get();
     const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
     const std::string name = elided(name_of(c.ui.aov, frame), room);
-    const bool open = ImGui::BeginCombo("##pass", name.c_str(), ImGuiComboFlags_HeightLarge);
+    const bool open = ImGui::BeginCombo("##aov", name.c_str(), ImGuiComboFlags_HeightLarge);
     if (!open) {
-        c.ui.probe.record_last_item("Viewport/Pass");
-        tip_for_last_item(c.ui, "The pass that the viewport shows: beauty or another AOV. Comma and full stop step through the passes.");
+        c.ui.probe.record_last_item("Viewport/AOV");
+        tip_for_last_item(c.ui, "The AOV that the viewport shows. Comma and full stop step through the list.");
     } else {
         draw_list(c, frame);
         ImGui::EndCombo();
@@ -75,7 +74,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     ImGui::End();
 }
 
-void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view) {
+void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const ImageView& view) {
     const auto scale = is_special(frame, view) ? map_scale(frame, view.show) : std::nullopt;
     // Between the line at the upper edge and the environment dial.
     const float em = ImGui::GetFontSize(), top = em * 4.4f, room = seen.height - top - em * 6, swatch = em * 1.1f;

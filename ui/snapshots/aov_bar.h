@@ -1,4 +1,4 @@
-// The viewport's toolbar that selects the displayed pass (AOV), and the colour scale of passes that are maps.
+// The viewport's toolbar that selects the displayed AOV, and the colour scale of AOVs that are maps.
 #pragma once
 
 #include "ui/panel_context.h"
@@ -9,12 +9,12 @@
 
 namespace blush {
 
-// Switches to another pass. Shows a message if the render restarts for it.
+// Switches to another AOV. Shows a message if the render restarts for it.
 void show_aov(PanelContext& c, const AovView& view);
-// A drop-down at the upper right corner of the visible picture; hidden while pictures are compared, because the compare label is
+// A drop-down at the upper right corner of the visible image; hidden while images are compared, because the compare label is
 // there.
 void draw_aov_bar(PanelContext& c, const ImageRect& seen);
-// The colour scale beside the picture, if the pass is a map that has one.
-void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const PictureView& view);
+// The colour scale beside the image, if the AOV is a map that has one.
+void draw_map_scale(ImDrawList& draw, const ImageRect& seen, const Frame& frame, const ImageView& view);
 
 } // namespace blush

@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-using Show = PictureView::Show;
+using Show = ImageView::Show;
 
 constexpr Vec3 nothing_hit{0.004f, 0.012f, 0.06f};
 // Range of relative errors of the heat map, as powers of ten.
@@ -60,8 +60,8 @@ Vec3 color_of(const Frame& f, Show show, const Ranges& ranges, size_t i) {
     case Show::depth: return f.depth[i] > 0 ? linear(grey(clamp01(ranges.depth.share(f.depth[i])))) : nothing_hit;
     case Show::object_id: return id_color(f.object_id[i]);
     case Show::material_id: return id_color(f.material_id[i]);
-    case Show::error: return heat(error_share(relative_error(f, i)));
-    case Show::samples: return heat(ranges.samples.share(samples_of(f, i)));
+    case Show::error: return heat_map_color(error_share(relative_error(f, i)));
+    case Show::samples: return heat_map_color(ranges.samples.share(samples_of(f, i)));
     default: return {0, 0, 0};
     }
 }
@@ -119,7 +119,7 @@ std::string aov_caption(const Frame& frame, Show show) {
 }
 
 std::optional<MapScale> map_scale(const Frame& frame, Show show) {
-    constexpr auto hot = [](float t) { return encoded(heat(t)); };
+    constexpr auto hot = [](float t) { return encoded(heat_map_color(t)); };
     if (show == Show::depth) {
         const AovRange r = depth_range(frame);
         const auto metres = [](float z) { return fmt::format("{:.3g} m", z); };

@@ -6,7 +6,7 @@
 namespace blush {
 namespace {
 
-using Show = PictureView::Show;
+using Show = ImageView::Show;
 
 std::string bounce_name(int k) {
     const bool last = k + 1 == default_bounce_planes;
@@ -27,7 +27,7 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     const bool has_bounces = frame && !frame->bounces.empty();
     const int bounces = has_bounces ? int(frame->bounces.size()) : default_bounce_planes;
     for (int k = 0; k < bounces; ++k)
-        list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce passes: the render restarts"});
+        list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce AOVs: the render restarts"});
     return list;
 }
 
@@ -45,7 +45,7 @@ AovView stepped(const AovView& view, const Frame* frame, int by) {
     return list[size_t(((at + by) % n + n) % n)].view;
 }
 
-PictureView picture_view(const AovView& view, int bounce_planes) {
+ImageView image_view(const AovView& view, int bounce_planes) {
     if (view.show == Show::group) return {.show = Show::group, .group = view.index};
     if (view.show != Show::bounces) return {.show = view.show};
     std::vector<float> gains(size_t(bounce_planes), 0.f);

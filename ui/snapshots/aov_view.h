@@ -1,9 +1,9 @@
-// Which pass (AOV) the viewport shows, and the list of passes to choose from.
+// Which AOV the viewport shows, and the list of AOVs to choose from.
 #pragma once
 
 #include "render/film/film_size.h"
 #include "render/frame.h"
-#include "ui/snapshots/picture_view.h"
+#include "ui/snapshots/image_view.h"
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace blush {
 
 struct AovView {
-    PictureView::Show show = PictureView::Show::beauty;
+    ImageView::Show show = ImageView::Show::beauty;
     int index = 0; // of the bounce or group
     bool operator==(const AovView&) const = default;
 };
@@ -19,12 +19,11 @@ struct AovView {
 struct AovEntry {
     AovView view;
     std::string name;
-    std::string needs = {}; // why the pass is not available yet; empty: it is available
-    bool possible = true;   // false: only the user can provide what is missing
+    std::string needs = {}; // why the AOV is not available yet; empty: it is available
+    bool possible = true;   // false: only the user can provide the missing data
 };
-// All passes: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
+// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
 // list has no groups.
-// list without groups.
 std::vector<AovEntry> aov_list(const Frame* frame);
 // Its name in the list.
 std::string name_of(const AovView& view, const Frame* frame);
@@ -32,7 +31,7 @@ std::string name_of(const AovView& view, const Frame* frame);
 AovView stepped(const AovView& view, const Frame* frame, int by);
 
 // `bounce_planes`: number in the frame.
-PictureView picture_view(const AovView& view, int bounce_planes);
+ImageView image_view(const AovView& view, int bounce_planes);
 // The film planes that it needs in addition to the default ones. None for the beauty.
 PlaneSet planes_of(const AovView& view);
 

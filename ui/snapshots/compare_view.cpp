@@ -13,13 +13,13 @@ namespace {
 
 using Mode = Comparison::Mode;
 
-constexpr double default_frame = 16; // milliseconds per window frame, as for the live picture
+constexpr double default_frame = 16; // milliseconds per window frame, as for the live image
 
-std::shared_ptr<const Difference> answer(const DifferenceQuestion& question) {
-    return std::make_shared<const Difference>(difference_of(question));
+std::shared_ptr<const Difference> compute_difference(const DifferenceInput& input) {
+    return std::make_shared<const Difference>(difference_of(input));
 }
 
-PictureMix mix_of_side(const PanelContext& c, const ComparedSide& side) { return mix_of(c.ui.denoise, side.pictures.denoised != nullptr); }
+ImageMix mix_of_side(const PanelContext& c, const ComparedSide& side) { return mix_of(c.ui.denoise, side.images.denoised != nullptr); }
 
 // The wipe bar, in its own window above the viewport. True while it is dragged.
 bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
@@ -47,7 +47,7 @@ bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
 
 } // namespace
 
-void name_picture(const std::string& text, const ImageRect& seen) {
+void name_image(const std::string& text, const ImageRect& seen) {
     const float em = ImGui::GetFontSize();
     draw_label(*ImGui::GetWindowDrawList(), text, {seen.x + em, seen.y + em}, seen.width - 2 * em, tone::text);
 }
@@ -63,7 +63,7 @@ void name_sides(const std::string& a, const std::string& b, const ImageRect& see
 ComparedSide compared_side(const PanelContext& c, uint64_t id) {
     if (id == live_image) return {id, "live", {c.frame, c.denoised}};
     const SnapshotPtr s = c.ui.snapshots.find(id);
-    return s ? ComparedSide{id, s->name, s->pictures} : ComparedSide{id, {}, {}};
+    return s ? ComparedSide{id, s->name, s->images} : ComparedSide{id, {}, {}};
 }
 
 void CompareView::set_shader(const DisplayShader& shader) {
@@ -71,16 +71,16 @@ void CompareView::set_shader(const DisplayShader& shader) {
     shader_changed_ = true;
 }
 
-void CompareView::ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b) {
+void CompareView::update_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b) {
     const Comparison& compare = c.ui.snapshots.compare;
     if (compare.mode != Mode::difference) return;
     const bool denoised = c.ui.denoise.wants_denoised();
-    const DifferenceQuestion question{
-        a.pictures.frame, b.pictures.frame, denoised ? a.pictures.denoised : nullptr, denoised ? b.pictures.denoised : nullptr,
-        c.ui.denoise,     compare.kind};
-    if (difference_.ask(question, answer)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
-    if (difference_.answer()) answer_ = *difference_.answer();
-    c.ui.difference = answer_;
+    const DifferenceInput input{
+        a.images.frame, b.images.frame, denoised ? a.images.denoised : nullptr, denoised ? b.images.denoised : nullptr,
+        c.ui.denoise,   compare.kind};
+    if (difference_.update(input, compute_difference)) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
+    if (difference_.output()) result_ = *difference_.output();
+    c.ui.difference = result_;
 }
 
 // Uploads the sides that are not live, one above the other.
@@ -89,20 +89,20 @@ void CompareView::upload_sides(const PanelContext& c, const ComparedSide& a, con
     const ComparedSide* sides[] = {&a, &b};
     for (const ComparedSide* side : sides) {
         if (side->id == live_image) continue;
-        width = std::max(width, side->pictures.frame->width);
-        height += side->pictures.frame->height;
+        width = std::max(width, side->images.frame->width);
+        height += side->images.frame->height;
     }
     std::vector<float> rgba(size_t(width) * size_t(height) * 4, 1.f);
     int top = 0;
     for (int i = 0; i < 2; ++i) {
         parts_[i] = {};
         if (sides[i]->id == live_image) continue;
-        const Frame& f = *sides[i]->pictures.frame;
-        const PictureMix mix = mix_of_side(c, *sides[i]);
+        const Frame& f = *sides[i]->images.frame;
+        const ImageMix mix = mix_of_side(c, *sides[i]);
         for (int y = 0; y < f.height; ++y)
             for (int x = 0; x < f.width; ++x) {
                 float* to = &rgba[4 * (size_t(top + y) * size_t(width) + size_t(x))];
-                const Vec3 p = mixed_pixel(f, sides[i]->pictures.denoised.get(), mix, x, y);
+                const Vec3 p = mixed_pixel(f, sides[i]->images.denoised.get(), mix, x, y);
                 to[0] = p.x;
                 to[1] = p.y;
                 to[2] = p.z;
@@ -125,24 +125,24 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     const bool difference = compare.mode == Mode::difference;
     Shown wanted{difference ? Mode::difference : Mode::wipe, {}, {}, {}, {}, nullptr};
     if (difference) {
-        wanted.difference = answer_.get();
+        wanted.difference = result_.get();
     } else {
-        if (a.id != live_image) wanted.a = a.pictures.frame, wanted.mix_a = mix_of_side(c, a);
-        if (b.id != live_image) wanted.b = b.pictures.frame, wanted.mix_b = mix_of_side(c, b);
+        if (a.id != live_image) wanted.a = a.images.frame, wanted.mix_a = mix_of_side(c, a);
+        if (b.id != live_image) wanted.b = b.images.frame, wanted.mix_b = mix_of_side(c, b);
     }
     DisplayLook plain = look;
     plain.mix = {};
     if (difference && compare.kind != DifferenceKind::absolute) plain.numbers.false_color = {};
-    const bool other_picture = !pass_.busy() && shown_ != wanted;
-    if (other_picture) {
+    const bool other_image = !pass_.busy() && shown_ != wanted;
+    if (other_image) {
         shown_ = wanted;
-        if (difference && answer_ && answer_->problem.empty())
-            pass_.upload(answer_->width, answer_->height, answer_->rgba);
+        if (difference && result_ && result_->problem.empty())
+            pass_.upload(result_->width, result_->height, result_->rgba);
         else if (!difference)
             upload_sides(c, a, b);
         drawn_ = false;
     }
-    if (other_picture || shader_changed_ || look_ != plain) {
+    if (other_image || shader_changed_ || look_ != plain) {
         look_ = plain;
         pass_.begin(plain);
     }
@@ -156,7 +156,7 @@ void CompareView::update(PanelContext& c, const ComparedSide& a, const ComparedS
     }
 }
 
-// A picture with another aspect ratio than the live one keeps its own.
+// An image with another aspect ratio than the live one keeps its own.
 void CompareView::draw_part(const Part& part, const ImageRect& whole, const ImageRect& clip) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect({clip.x, clip.y}, {clip.x + clip.width, clip.y + clip.height}, true);
@@ -192,8 +192,8 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
         return;
     }
     const ComparedSide a = compared_side(c, compare.a), b = compared_side(c, compare.b);
-    if (a.id == b.id || !a.pictures.frame || !b.pictures.frame) return;
-    ask_difference(c, a, b);
+    if (a.id == b.id || !a.images.frame || !b.images.frame) return;
+    update_difference(c, a, b);
     update(c, a, b, look, pace);
     for (Part& part : parts_) part.texture = pass_.texture();
     if (compare.mode == Mode::wipe && drawn_) return draw_wipe(c, a, b, image, seen);
@@ -203,7 +203,7 @@ void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect&
         left_name_ = (compare.shows_b ? "B   " : "A   ") + side.label;
         return;
     }
-    if (compare.mode != Mode::difference || !answer_ || !answer_->problem.empty() || !drawn_) return;
+    if (compare.mode != Mode::difference || !result_ || !result_->problem.empty() || !drawn_) return;
     draw_part({pass_.texture()}, image, seen);
     left_name_ = std::string("A - B   ") + caption_of(compare.kind);
 }
@@ -212,7 +212,7 @@ void CompareView::draw_names(const ImageRect& seen) const {
     if (!right_name_.empty())
         name_sides(left_name_, right_name_, seen);
     else if (!left_name_.empty())
-        name_picture(left_name_, seen);
+        name_image(left_name_, seen);
 }
 
 } // namespace blush

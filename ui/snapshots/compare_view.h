@@ -1,4 +1,4 @@
-// Compares two pictures in the viewport: wipe, flicker or difference. Draws over the viewport's picture.
+// Compares two images in the viewport: wipe, flicker or difference. Draws over the viewport's image.
 #pragma once
 
 #include "ui/gl/display_pass.h"
@@ -13,35 +13,35 @@
 
 namespace blush {
 
-// One side: a snapshot's pictures, or the live ones.
+// One side: a snapshot's images, or the live ones.
 struct ComparedSide {
     uint64_t id = live_image;
     std::string label;
-    Pictures pictures;
+    Images images;
 };
-// Null frames if there is no such picture.
+// Null frames if there is no such image.
 ComparedSide compared_side(const PanelContext& c, uint64_t id);
 
-// The name of the whole picture, and those of both sides of a wipe.
-void name_picture(const std::string& text, const ImageRect& seen);
+// The name of the whole image, and those of both sides of a wipe.
+void name_image(const std::string& text, const ImageRect& seen);
 void name_sides(const std::string& a, const std::string& b, const ImageRect& seen);
 
 class CompareView {
 public:
     void set_shader(const DisplayShader& shader);
-    // `image` is the rectangle of the whole picture, `seen` its visible part. The live picture is already drawn, with `look`.
+    // `image` is the rectangle of the whole image, `seen` its visible part. The live image is already drawn, with `look`.
     void draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace);
-    // Names what draw() has drawn; after everything that dims the picture.
+    // Names what draw() has drawn; after everything that dims the image.
     void draw_names(const ImageRect& seen) const;
 
 private:
-    // Rectangle of a picture in a texture.
+    // Rectangle of an image in a texture.
     struct Part {
         GLuint texture = 0;
         float u = 1, v0 = 0, v1 = 1;
-        float aspect = 0; // of the picture; 0: same as the live one
+        float aspect = 0; // of the image; 0: same as the live one
     };
-    void ask_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
+    void update_difference(PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void update(PanelContext& c, const ComparedSide& a, const ComparedSide& b, const DisplayLook& look, const FrameBudget& pace);
     void upload_sides(const PanelContext& c, const ComparedSide& a, const ComparedSide& b);
     void draw_part(const Part& part, const ImageRect& image, const ImageRect& clip) const;
@@ -54,15 +54,15 @@ private:
     // The inputs of the last upload.
     struct Shown {
         Comparison::Mode mode = Comparison::Mode::off;
-        FramePtr a, b; // of snapshots; null for the live picture
-        PictureMix mix_a, mix_b;
+        FramePtr a, b; // of snapshots; null for the live image
+        ImageMix mix_a, mix_b;
         const Difference* difference = nullptr;
         bool operator==(const Shown&) const = default;
     } shown_;
     Part parts_[2];
     std::string left_name_, right_name_; // right: of a wipe
-    AsyncQuery<DifferenceQuestion, std::shared_ptr<const Difference>> difference_;
-    std::shared_ptr<const Difference> answer_;
+    AsyncQuery<DifferenceInput, std::shared_ptr<const Difference>> difference_;
+    std::shared_ptr<const Difference> result_;
 };
 
 } // namespace blush

@@ -10,10 +10,10 @@
 namespace blush {
 namespace {
 
-RgbImage seen(const Frame& frame, const DenoisedPicture* denoised, const DenoiseView& view) {
+RgbImage seen(const Frame& frame, const DenoisedImage* denoised, const DenoiseView& view) {
     RgbImage image{frame.width, frame.height, {}};
     image.pixels.reserve(frame.rgba.size() / 4);
-    const PictureMix mix = mix_of(view, denoised != nullptr);
+    const ImageMix mix = mix_of(view, denoised != nullptr);
     for (int y = 0; y < frame.height; ++y)
         for (int x = 0; x < frame.width; ++x) image.pixels.push_back(mixed_pixel(frame, denoised, mix, x, y));
     return image;
@@ -32,7 +32,7 @@ void paint(Difference& d, const RgbImage& a, const RgbImage& b) {
     for (size_t i = 0; i < a.pixels.size(); ++i) {
         const Vec3 c = d.kind == DifferenceKind::absolute
                            ? distance(a.pixels[i], b.pixels[i])
-                           : heat(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
+                           : heat_map_color(d.kind == DifferenceKind::flip ? flip[i] : relative(a.pixels[i], b.pixels[i]));
         d.rgba[4 * i] = c.x;
         d.rgba[4 * i + 1] = c.y;
         d.rgba[4 * i + 2] = c.z;
@@ -41,11 +41,11 @@ void paint(Difference& d, const RgbImage& a, const RgbImage& b) {
 
 } // namespace
 
-Difference difference_of(const DifferenceQuestion& q) {
+Difference difference_of(const DifferenceInput& q) {
     Difference d{.kind = q.kind};
     const Frame &a = *q.a, &b = *q.b;
     if (a.width != b.width || a.height != b.height) {
-        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only pictures of the same size can be compared.", a.width, a.height,
+        d.problem = fmt::format("A has {} × {} pixels, B {} × {}. Only images of the same size can be compared.", a.width, a.height,
                                 b.width, b.height);
         return d;
     }

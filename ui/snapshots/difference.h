@@ -1,4 +1,4 @@
-// Difference of two pictures: an image and numbers. Takes longer than one UI frame.
+// Difference of two images: an image and numbers. Takes longer than one UI frame.
 #pragma once
 
 #include "measure/metrics/metrics.h"
@@ -12,12 +12,12 @@
 namespace blush {
 
 // B is the reference.
-struct DifferenceQuestion {
+struct DifferenceInput {
     FramePtr a, b;
-    DenoisedPtr denoised_a, denoised_b; // null: use the raw picture
+    DenoisedPtr denoised_a, denoised_b; // null: use the raw image
     DenoiseView view;
     DifferenceKind kind = DifferenceKind::absolute;
-    bool operator==(const DifferenceQuestion&) const = default;
+    bool operator==(const DifferenceInput&) const = default;
 };
 
 struct Difference {
@@ -30,9 +30,9 @@ struct Difference {
     // 0.01), whose mean square is relMSE. flip: HDR-FLIP. The last two are maps from black at 0 to white at 1.
     std::vector<float> rgba = {};
 };
-Difference difference_of(const DifferenceQuestion& question);
+Difference difference_of(const DifferenceInput& input);
 
-// Caption of the picture: "|A - B|", ...
+// Caption of the image: "|A - B|", ...
 std::string caption_of(DifferenceKind kind);
 
 } // namespace blush

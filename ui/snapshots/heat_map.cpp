@@ -7,7 +7,7 @@
 
 namespace blush {
 
-Vec3 heat(float t) {
+Vec3 heat_map_color(float t) {
     constexpr Vec3 stops[] = {{0, 0, 0}, {0.02f, 0.03f, 0.35f}, {0.6f, 0.05f, 0.08f}, {0.95f, 0.6f, 0.05f}, {1, 1, 1}};
     constexpr int last = int(std::size(stops)) - 1;
     const float at = clamp01(t) * last;

@@ -18,10 +18,10 @@ std::array<ValueStatistics, 3> by_channel(const std::vector<float>& rgb) {
 
 } // namespace
 
-RegionStatistics region_statistics(const ShownPicture& picture) {
-    const Frame& frame = *picture.frame;
-    const ViewSettings& view = picture.view;
-    const PictureRegion region = view.measured.value_or(PictureRegion{});
+RegionStatistics region_statistics(const ShownImage& image) {
+    const Frame& frame = *image.frame;
+    const ViewSettings& view = image.view;
+    const ImageRegion region = view.measured.value_or(ImageRegion{});
     RegionStatistics s;
     s.x = std::clamp(int(region.x * float(frame.width)), 0, frame.width - 1);
     s.y = std::clamp(int(region.y * float(frame.height)), 0, frame.height - 1);
@@ -33,7 +33,7 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
     std::vector<float> coverage;
     for (int y = s.y; y < s.y + s.height; ++y) {
         for (int x = s.x; x < s.x + s.width; ++x) {
-            const Vec3 c = mixed_pixel(frame, picture.denoised.get(), picture.mix, x, y);
+            const Vec3 c = mixed_pixel(frame, image.denoised.get(), image.mix, x, y);
             rgb.insert(rgb.end(), {c.x, c.y, c.z});
             nits.push_back(luminance(c));
             // log2(0) is not finite: black pixels are skipped
@@ -48,7 +48,7 @@ RegionStatistics region_statistics(const ShownPicture& picture) {
     s.nits = value_statistics(nits);
     s.ev = value_statistics(ev);
     s.ev100 = value_statistics(ev100);
-    if (show(*picture.color, view, rgb, {albedo, coverage})) s.displayed = by_channel(rgb);
+    if (show(*image.color, view, rgb, {albedo, coverage})) s.displayed = by_channel(rgb);
     return s;
 }
 

@@ -1,9 +1,9 @@
-// Statistics of a rectangle of the picture, in several units.
+// Statistics of a rectangle of the image, in several units.
 #pragma once
 
 #include "measure/metrics/scopes.h"
 #include "ui/jobs/async_query.h"
-#include "ui/views/shown_picture.h"
+#include "ui/views/shown_image.h"
 
 #include <array>
 
@@ -19,8 +19,8 @@ struct RegionStatistics {
 };
 
 // Of the view's measured region: all pixels that it touches, at least one.
-RegionStatistics region_statistics(const ShownPicture& picture);
+RegionStatistics region_statistics(const ShownImage& image);
 
-using RegionView = AsyncQuery<ShownPicture, RegionStatistics>;
+using RegionView = AsyncQuery<ShownImage, RegionStatistics>;
 
 } // namespace blush

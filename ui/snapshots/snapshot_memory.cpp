@@ -18,7 +18,7 @@ size_t bytes_of(const Frame& f) {
            bytes_of(f.survival);
 }
 
-size_t bytes_of(const DenoisedPicture& d) { return bytes_of(d.denoised.rgb) + (d.groups ? bytes_of(d.groups->planes) : 0); }
+size_t bytes_of(const DenoisedImage& d) { return bytes_of(d.denoised.rgb) + (d.groups ? bytes_of(d.groups->planes) : 0); }
 
 size_t bytes_of(const FilmState& f) {
     size_t sum = bytes_of(f.shares[0]) + bytes_of(f.shares[1]) + bytes_of(f.marked);
@@ -29,8 +29,8 @@ size_t bytes_of(const FilmState& f) {
 } // namespace
 
 size_t bytes_of(const Snapshot& s) {
-    return (s.pictures.frame ? bytes_of(*s.pictures.frame) : 0) + (s.pictures.denoised ? bytes_of(*s.pictures.denoised) : 0) +
-           bytes_of(s.error) + (s.film ? bytes_of(*s.film) : 0);
+    return (s.images.frame ? bytes_of(*s.images.frame) : 0) + (s.images.denoised ? bytes_of(*s.images.denoised) : 0) + bytes_of(s.error) +
+           (s.film ? bytes_of(*s.film) : 0);
 }
 
 size_t bytes_of(const std::vector<SnapshotPtr>& list) {
@@ -39,7 +39,7 @@ size_t bytes_of(const std::vector<SnapshotPtr>& list) {
     return sum;
 }
 
-std::vector<SnapshotPtr> beyond_memory(const SnapshotsView& view, size_t limit) {
+std::vector<SnapshotPtr> snapshots_to_unload(const SnapshotsView& view, size_t limit) {
     size_t sum = bytes_of(view.list);
     std::vector<SnapshotPtr> by_use = view.list, leaving;
     std::ranges::sort(by_use, {}, &Snapshot::last_used);

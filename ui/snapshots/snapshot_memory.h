@@ -8,12 +8,12 @@
 
 namespace blush {
 
-// Bytes of its pictures, planes and samples; without payloads shared with the scene.
+// Bytes of its images, planes and samples; without payloads shared with the scene.
 size_t bytes_of(const Snapshot& snapshot);
 size_t bytes_of(const std::vector<SnapshotPtr>& list);
 
 // The snapshots to unload so that the rest uses at most `limit` bytes: least recently used first; never pinned, compared or the
 // most recently used ones.
-std::vector<SnapshotPtr> beyond_memory(const SnapshotsView& view, size_t limit);
+std::vector<SnapshotPtr> snapshots_to_unload(const SnapshotsView& view, size_t limit);
 
 } // namespace blush

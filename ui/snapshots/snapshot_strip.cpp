@@ -64,7 +64,7 @@ void draw_fitting(const std::string& text, const ImVec2& at, float width, ImU32 
     ImGui::GetWindowDrawList()->AddText(at, color, elided(text, width).c_str());
 }
 
-// Where its picture and samples are, if not in memory; empty: in memory.
+// Where its image and samples are, if not in memory; empty: in memory.
 const char* place_of(const Snapshot& s) {
     if (s.place == Snapshot::Place::lost) return "file missing";
     if (s.place == Snapshot::Place::file) return s.film_in_file ? "on disk" : "on disk, no samples";
@@ -84,9 +84,9 @@ void draw_place(PanelContext& c, const Snapshot& s, const ImVec2& low, float wid
 // A click restores its state; the buttons and the menu do the rest.
 void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart& part, float width) {
     const Snapshot& s = *snapshot;
-    const float em = ImGui::GetFontSize(), picture_height = width * Thumbnail::height / Thumbnail::width;
+    const float em = ImGui::GetFontSize(), image_height = width * Thumbnail::height / Thumbnail::width;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::InvisibleButton(fmt::format("card{}", s.id).c_str(), {width, picture_height + em * 2.6f}))
+    if (ImGui::InvisibleButton(fmt::format("card{}", s.id).c_str(), {width, image_height + em * 2.6f}))
         c.ui.snapshots.requests.push_back({SnapshotRequest::What::restore, s.id});
     ImGui::SetItemAllowOverlap(); // the buttons A and B are over it
     c.ui.probe.record_last_item(fmt::format("Snapshot/{}", s.id));
@@ -97,7 +97,7 @@ void draw_card(PanelContext& c, const SnapshotPtr& snapshot, const ThumbnailPart
     tip_for_last_item(c.ui, tip.c_str());
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 high{at.x + width, at.y + picture_height};
+    const ImVec2 high{at.x + width, at.y + image_height};
     if (part.texture) draw.AddImage(part.texture, at, high, {0, part.v0}, {1, part.v1});
     draw_place(c, s, at, width, high.y);
     draw.AddRect(at, high, hovered ? tone::text : tone::line);

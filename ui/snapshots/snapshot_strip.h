@@ -1,4 +1,4 @@
-// The snapshot strip: snapshots in a row below the picture.
+// The snapshot strip: snapshots in a row below the image.
 #pragma once
 
 #include "ui/gl/display_pass.h"

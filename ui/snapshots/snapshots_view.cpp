@@ -15,7 +15,7 @@ Thumbnail thumbnail_of(const Frame& frame) {
     const int width = std::clamp(int(frame.width / scale), 1, Thumbnail::width),
               height = std::clamp(int(frame.height / scale), 1, Thumbnail::height);
     const int left = (Thumbnail::width - width) / 2, top = (Thumbnail::height - height) / 2;
-    constexpr int taps = 3; // samples along each side of a pixel's footprint: enough for a small picture
+    constexpr int taps = 3; // samples along each side of a pixel's footprint: enough for a small image
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             float* to = &t.rgba[4 * (size_t(top + y) * Thumbnail::width + size_t(left + x))];
@@ -31,21 +31,21 @@ Thumbnail thumbnail_of(const Frame& frame) {
 
 void Snapshot::choose_layer(size_t index) {
     layers->chosen = index;
-    pictures.frame = frame_of(*layers);
-    thumbnail = thumbnail_of(*pictures.frame);
+    images.frame = frame_of(*layers);
+    thumbnail = thumbnail_of(*images.frame);
 }
 
 std::string Snapshot::figures() const {
     if (layers) return fmt::format("{}, {} layer{}", time, layers->layers.size(), layers->layers.size() == 1 ? "" : "s");
-    if (!pictures.frame) return last_figures_.empty() ? time : last_figures_;
-    const Frame& f = *pictures.frame;
+    if (!images.frame) return last_figures_.empty() ? time : last_figures_;
+    const Frame& f = *images.frame;
     const std::string relative_error = f.error.known ? fmt::format(", {:.3g} %", 100 * std::sqrt(f.error.relmse)) : std::string();
     return fmt::format("{} spp{}, {}", f.samples, relative_error, time);
 }
 
-void Snapshot::let_go() {
+void Snapshot::unload() {
     last_figures_ = figures();
-    pictures = {};
+    images = {};
     error = {};
     film = nullptr;
     place = Place::file;
@@ -67,7 +67,7 @@ uint64_t SnapshotsView::add(Snapshot snapshot) {
 void SnapshotsView::remove(uint64_t id) {
     removed_ = find(id);
     std::erase(list, removed_);
-    if (removed_ && !removed_->file.empty() && (!removed_->film || removed_->film_in_file)) removed_->let_go();
+    if (removed_ && !removed_->file.empty() && (!removed_->film || removed_->film_in_file)) removed_->unload();
     if (compare.a == id || compare.b == id) compare = {.kind = compare.kind};
     if (details == id) details = 0;
 }

@@ -1,10 +1,10 @@
-// Snapshots: saved pictures with the state that made them, and the comparison of two of them, or of one with the live image.
+// Snapshots: saved images with the state that made them, and the comparison of two of them, or of one with the live image.
 #pragma once
 
 #include "render/film/film_state.h"
 #include "render/session/published_frames.h"
 #include "scene/document/edit.h"
-#include "ui/snapshots/picture_layers.h"
+#include "ui/snapshots/image_layers.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,24 +15,24 @@
 
 namespace blush {
 
-// Small scene-linear picture, 4 values per pixel.
+// Small scene-linear image, 4 values per pixel.
 struct Thumbnail {
     static constexpr int width = 160, height = 100; // pixels, including borders
     std::vector<float> rgba;
 };
-// The picture scaled to fit into the thumbnail.
+// The image scaled to fit into the thumbnail.
 Thumbnail thumbnail_of(const Frame& frame);
 
 struct Snapshot {
     uint64_t id = 0; // never 0, which is the live image
     std::string name, note, time;
-    Pictures pictures;       // full resolution; the denoised one may be null
+    Images images;           // full resolution; the denoised one may be null
     std::vector<Vec3> error; // standard error of each pixel, RGB; may be empty
     FilmStatePtr film;       // samples to resume rendering from; null: rendering restarts
     Thumbnail thumbnail;
-    std::optional<PixelRect> frame; // the camera's frame, if the picture extends beyond it; the rest is not saved
+    std::optional<PixelRect> frame; // the camera's frame, if the image extends beyond it; the rest is not saved
 
-    // The state. Without a scene file there is no state, only the picture.
+    // The state. Without a scene file there is no state, only the image.
     Project project;
     RenderSettings settings; // settings of the render
     Scene imported;          // the scene as in its file
@@ -42,21 +42,21 @@ struct Snapshot {
     std::filesystem::path file; // file that it is saved in; empty: none
     bool film_in_file = false;  // the file also has its samples
 
-    std::shared_ptr<PictureLayers> layers; // picture from another program; such a snapshot has no state, samples or own file; else null
+    std::shared_ptr<ImageLayers> layers; // image from another program; such a snapshot has no state, samples or own file; else null
 
     // Memory management (snapshot_memory.h).
     bool pinned = false; // never unloaded
     uint64_t last_used = 0;
-    enum class Place { memory, file, lost } place = Place::memory; // of pictures and samples; lost: the file is missing or invalid
+    enum class Place { memory, file, lost } place = Place::memory; // of images and samples; lost: the file is missing or invalid
 
     // Shows another layer; requires `layers`.
     void choose_layer(size_t index);
     std::string figures() const; // "64 spp, 1.2 %, 14:32"
-    // Replaces pictures and samples by those of its file.
-    void let_go();
+    // Replaces images and samples by those of its file.
+    void unload();
 
 private:
-    std::string last_figures_; // used while the pictures are unloaded
+    std::string last_figures_; // used while the images are unloaded
 };
 using SnapshotPtr = std::shared_ptr<Snapshot>;
 
@@ -68,7 +68,7 @@ struct Comparison {
     enum class Mode { off, wipe, flicker, difference };
     Mode mode = Mode::off;
     uint64_t a = live_image, b = live_image; // equal: nothing chosen yet
-    float wipe = 0.5f;                       // fraction of the picture that shows A, from the left
+    float wipe = 0.5f;                       // fraction of the image that shows A, from the left
     bool shows_b = false;                    // flicker: B is shown
     DifferenceKind kind = DifferenceKind::absolute;
 };

@@ -33,8 +33,8 @@ Vec3d towards_eye(const Projection& projection, const Vec3d& from) {
 }
 
 // The half of a ring that faces the viewer, from end to end.
-std::vector<ScreenPoint> seen_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis,
-                                   double radius) {
+std::vector<ScreenPoint> projected_ring(const Projection& projection, const ImageRect& image, const Vec3d& centre, const Vec3d& axis,
+                                        double radius) {
     constexpr int steps = 96;
     const Vec3d towards = towards_eye(projection, centre);
     const Vec3d across = towards - axis * dot(axis, towards);
@@ -80,7 +80,7 @@ std::vector<HandleShape> handle_shapes(const Projection& projection, const Image
     const ScreenPoint from = image.at(*centre);
     const double world_size = projection.height_at(centre->distance) * place.size / image.height;
     if (place.mode == TransformMode::rotate) {
-        auto round = seen_ring(projection, image, place.position, -towards_eye(projection, place.position), world_size * 1.25);
+        auto round = projected_ring(projection, image, place.position, -towards_eye(projection, place.position), world_size * 1.25);
         if (round.size() > 4) shapes.push_back(ring_shape(Handle::rotate, from, std::move(round)));
     } else {
         shapes.push_back({handle_of(place.mode, -1), from, from});
@@ -88,7 +88,7 @@ std::vector<HandleShape> handle_shapes(const Projection& projection, const Image
     for (int i = 0; i < 3 && place.along_axes; ++i) {
         const Vec3d axis = place.axes[size_t(i)];
         if (place.mode == TransformMode::rotate) {
-            auto ring = seen_ring(projection, image, place.position, axis, world_size);
+            auto ring = projected_ring(projection, image, place.position, axis, world_size);
             if (ring.size() > 4) shapes.push_back(ring_shape(handle_of(place.mode, i), from, std::move(ring)));
             continue;
         }
@@ -116,7 +116,7 @@ Handle handle_under(const std::vector<HandleShape>& shapes, ScreenPoint mouse, f
     if (nearest != Handle::none) return nearest;
     best = reach / 2;
     for (const HandleShape& shape : shapes) {
-        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the picture; only the grips can be grabbed
+        if (shape.handle == Handle::aim || is_size(shape.handle)) continue; // their lines cross the image; only the grips can be grabbed
         const float d = shape.ring.empty() ? distance_to_segment(mouse, shape.from, shape.grip) : distance_to_line(mouse, shape.ring);
         if (d < best) {
             best = d;

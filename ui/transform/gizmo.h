@@ -15,7 +15,7 @@ struct ScreenPoint {
     float x = 0, y = 0;
 };
 
-// Rectangle of the picture on the screen.
+// Rectangle of the image on the screen.
 struct ImageRect {
     float x = 0, y = 0, width = 1, height = 1;
     ScreenPoint at(const ImagePoint& p) const { return {x + float(p.u) * width, y + float(p.v) * height}; }

@@ -144,7 +144,7 @@ Vec3d Handles::anchor(const Scene& scene, std::span<const TransformTarget> targe
 void Handles::grab(PanelContext& c, Handle handle, const std::optional<LightInView>& seen, const ViewRay& ray) {
     dragged_ = handle;
     start_ray_ = ray;
-    start_sight_ = seen;
+    start_in_view_ = seen;
     grabbed_.clear();
     for (const Id<Node> id : subtree_roots(c.scene(), c.ui.selection(c.scene())))
         grabbed_.push_back({id, world_from_node(c.scene(), id).t});
@@ -185,13 +185,14 @@ void Handles::drag(PanelContext& c, const Projection& projection, const ImageRec
     case Handle::spread:
     case Handle::sun_angle:
         set_light(c, c.scene().nodes.find(c.ui.selected)->light,
-                  resized(*start_sight_, dragged_, projection, start_ray_, projection.ray(u, v)), c.ui.gestures.current());
+                  resized(*start_in_view_, dragged_, projection, start_ray_, projection.ray(u, v)), c.ui.gestures.current());
         break;
     default: break;
     }
 }
 
-std::optional<LightInView> Handles::sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const {
+std::optional<LightInView> Handles::light_in_view(const Scene& scene, Id<Node> id, const Projection& projection,
+                                                  const ImageRect& image) const {
     const Light* light = light_of(scene, scene.nodes.find(id));
     const Affined m = world_from_node(scene, id);
     const auto seen = projection.project(m.t);
@@ -235,7 +236,7 @@ bool Handles::update(PanelContext& c, ImDrawList& draw, const Projection& projec
         aim_distance_ = std::max(length(pivot(c.scene().view) - world_from_node(c.scene(), aimed_).t), 1e-3);
     }
     if (dragged_ != Handle::none) drag(c, projection, image);
-    const auto seen = sight(c.scene(), c.ui.selected, projection, image);
+    const auto seen = light_in_view(c.scene(), c.ui.selected, projection, image);
     const std::vector<HandleShape> handles = shapes(c, targets, anchor(c.scene(), targets), projection, image, seen);
 
     const ImVec2 mouse = ImGui::GetIO().MousePos;

@@ -1,4 +1,4 @@
-// The handles of the selection: drawn over the picture, dragged with the mouse, one undo step per drag. They move, rotate, scale,
+// The handles of the selection: drawn over the image, dragged with the mouse, one undo step per drag. They move, rotate, scale,
 // aim and resize all selected nodes.
 #pragma once
 
@@ -26,7 +26,7 @@ private:
                                     const Projection& projection, const ImageRect& image, const std::optional<LightInView>& seen) const;
     void drag(PanelContext& c, const Projection& projection, const ImageRect& image);
     void aim(PanelContext& c, const Projection& projection, double u, double v);
-    std::optional<LightInView> sight(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
+    std::optional<LightInView> light_in_view(const Scene& scene, Id<Node> id, const Projection& projection, const ImageRect& image) const;
 
     // The centre of a node's mesh in local space. The key is the node and the first part of its mesh, because after a reload the
     // same id may have another mesh.
@@ -40,7 +40,7 @@ private:
 
     Handle dragged_ = Handle::none;
     ViewRay start_ray_{};
-    std::optional<LightInView> start_sight_;
+    std::optional<LightInView> start_in_view_;
     // Selected nodes that are not descendants of other selected ones, with their initial transforms.
     struct Grabbed {
         Id<Node> node;

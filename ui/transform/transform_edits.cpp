@@ -44,7 +44,7 @@ Light scaled(const Light& before, const Affined& world_from_node, const Motion& 
     case Light::Kind::spot: light.radius = size(light.radius, all); break;
     case Light::Kind::sun: light.angle_radians = std::min(float(light.angle_radians * all), std::numbers::pi_v<float>); break;
     }
-    return with_power_kept(before, light);
+    return with_same_power(before, light);
 }
 
 Affined moved(const TransformTarget& target, const Motion& motion) {
@@ -56,7 +56,7 @@ Affined moved(const TransformTarget& target, const Motion& motion) {
     return {m.x, m.y, m.z, t};
 }
 
-bool looks_the_same_from_all_sides(const Light& light) {
+bool is_rotation_invariant(const Light& light) {
     return (light.kind == Light::Kind::point || light.kind == Light::Kind::sphere) && !light.ies;
 }
 
@@ -84,8 +84,7 @@ std::string why_not(const Scene& scene, std::span<const TransformTarget> targets
     if (targets.empty()) return "The selection cannot be transformed: it is driven by an animation or a skin";
     if (targets.size() != 1 || !targets[0].light || mode == TransformMode::grab) return {};
     const Light& light = *scene.lights.find(targets[0].light);
-    if (mode == TransformMode::rotate && looks_the_same_from_all_sides(light))
-        return light.name + " emits uniformly: rotation has no effect";
+    if (mode == TransformMode::rotate && is_rotation_invariant(light)) return light.name + " emits uniformly: rotation has no effect";
     if (mode == TransformMode::scale && !has_size(light))
         return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first"
                                                             : " has no size to scale: set its Radius first");

@@ -66,13 +66,13 @@ void Transformer::end(PanelContext& c, bool confirmed) {
     c.ui.transform.keys.clear();
 }
 
-void Transformer::abandon(PanelContext& c) {
+void Transformer::cancel(PanelContext& c) {
     c.ui.transform.wanted.reset();
     c.ui.transform.keys.clear();
     if (tool_) end(c, false);
 }
 
-std::optional<bool> Transformer::hear(PanelContext& c) {
+std::optional<bool> Transformer::confirmation(PanelContext& c) {
     const ImGuiIO& io = ImGui::GetIO();
     tool_->point_at({io.MousePos.x, io.MousePos.y}, io.KeyShift, io.KeyCtrl);
     for (const KeyPress& press : std::exchange(c.ui.transform.keys, {})) {
@@ -118,7 +118,7 @@ bool Transformer::update(PanelContext& c, ImDrawList& draw, const Projection& pr
     if (!tool_) return false;
     cover_window();
     c.ui.wraps_cursor = true;
-    const std::optional<bool> confirmed = hear(c);
+    const std::optional<bool> confirmed = confirmation(c);
     if (confirmed != false) apply(c);
     if (!confirmed) {
         draw_axes(draw, projection, image);

@@ -15,14 +15,14 @@ public:
     // Starts a requested transform and continues the active one. True while one is active: it then uses all mouse and key input.
     bool update(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& image);
     // Drops a request and cancels the active transform.
-    void abandon(PanelContext& c);
+    void cancel(PanelContext& c);
     bool is_active() const { return tool_.has_value(); }
 
 private:
     void begin(PanelContext& c, const TransformRequest& request, const Projection& projection, const ImageRect& image);
     void end(PanelContext& c, bool confirmed);
     // true: confirmed, false: cancelled; nullopt: still active
-    std::optional<bool> hear(PanelContext& c);
+    std::optional<bool> confirmation(PanelContext& c);
     void apply(PanelContext& c);
     void draw_axes(ImDrawList& draw, const Projection& projection, const ImageRect& image) const;
 

@@ -16,8 +16,8 @@ void settle(CameraFrame& frame, const ViewSettings& view, const Scene& scene, Id
     frame.lock = view.lock_camera;
 }
 
-PictureSize picture_size(const CameraFrame& frame, int viewport_width, int viewport_height) {
-    const PictureSize viewport{std::max(viewport_width, 1), std::max(viewport_height, 1)};
+ImageSize image_size(const CameraFrame& frame, int viewport_width, int viewport_height) {
+    const ImageSize viewport{std::max(viewport_width, 1), std::max(viewport_height, 1)};
     if (frame.aspect <= 0) return viewport;
     const bool wider = frame.aspect > float(viewport.width) / float(viewport.height);
     if (!wider && !frame.fit) return viewport;
@@ -25,10 +25,10 @@ PictureSize picture_size(const CameraFrame& frame, int viewport_width, int viewp
     return {int(fitted.width), int(fitted.height)};
 }
 
-ImageRect frame_in_picture(const CameraFrame& frame, const ImageRect& picture) {
-    const float width = std::round(picture.height * frame.aspect);
-    if (frame.aspect <= 0 || width >= picture.width - 1) return picture;
-    return {std::round(picture.x + (picture.width - width) / 2), picture.y, width, picture.height};
+ImageRect frame_in_image(const CameraFrame& frame, const ImageRect& image) {
+    const float width = std::round(image.height * frame.aspect);
+    if (frame.aspect <= 0 || width >= image.width - 1) return image;
+    return {std::round(image.x + (image.width - width) / 2), image.y, width, image.height};
 }
 
 } // namespace blush

@@ -13,24 +13,24 @@ namespace {
 
 constexpr ImU32 passepartout = IM_COL32(0, 0, 0, 255 - brightness_outside_frame), edge = IM_COL32(150, 150, 150, 160);
 
-void draw_passepartout(ImDrawList& draw, const ImageRect& picture, const ImageRect& frame) {
-    const float bottom = picture.y + picture.height, right = frame.x + frame.width;
-    draw.AddRectFilled({picture.x, picture.y}, {frame.x, bottom}, passepartout);
-    draw.AddRectFilled({right, picture.y}, {picture.x + picture.width, bottom}, passepartout);
+void draw_passepartout(ImDrawList& draw, const ImageRect& image, const ImageRect& frame) {
+    const float bottom = image.y + image.height, right = frame.x + frame.width;
+    draw.AddRectFilled({image.x, image.y}, {frame.x, bottom}, passepartout);
+    draw.AddRectFilled({right, image.y}, {image.x + image.width, bottom}, passepartout);
 }
 
 } // namespace
 
-std::optional<ImageRect> passepartout_of(const PanelContext& c, const ImageRect& picture) {
+std::optional<ImageRect> passepartout_of(const PanelContext& c, const ImageRect& image) {
     if (c.ui.light_camera || !is_at_home(c.scene(), c.ui.home)) return {};
-    const ImageRect frame = frame_in_picture(c.ui.frame, picture);
-    return frame.width == picture.width ? std::nullopt : std::optional(frame);
+    const ImageRect frame = frame_in_image(c.ui.frame, image);
+    return frame.width == image.width ? std::nullopt : std::optional(frame);
 }
 
-void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& picture, const ImageRect& seen, bool dimmed) {
+void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& image, const ImageRect& seen, bool dimmed) {
     if (c.ui.light_camera) return;
-    if (const auto frame = passepartout_of(c, picture)) {
-        if (!dimmed) draw_passepartout(draw, picture, *frame);
+    if (const auto frame = passepartout_of(c, image)) {
+        if (!dimmed) draw_passepartout(draw, image, *frame);
         draw.AddRect({frame->x, frame->y}, {frame->x + frame->width, frame->y + frame->height}, edge);
         c.ui.probe.record("Camera frame", {frame->x, frame->y, frame->width, frame->height});
     }
@@ -38,17 +38,17 @@ void draw_camera_frame(PanelContext& c, ImDrawList& draw, const ImageRect& pictu
     const Node* camera = c.scene().nodes.find(c.ui.home.camera);
     const std::string text = fmt::format("Free view.  {}: {}", to_string(shortcut(Command::camera_view).press),
                                          camera && !camera->name.empty() ? camera->name : "camera");
-    // Beside the list of passes.
+    // Beside the list of AOVs.
     const float em = ImGui::GetFontSize(), room = std::max(seen.width - 13 * em, 6 * em);
     const ImVec2 at{seen.x + em * 0.5f, seen.y + em * 0.75f}, size = draw_label(draw, text, at, room, tone::dim_text);
     c.ui.probe.record("Free view", {at.x, at.y, size.x, size.y});
 }
 
-std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& picture) {
+std::optional<PixelRect> camera_frame_of(const UiState& ui, const Scene& scene, const Frame& image) {
     if (ui.light_camera || !is_at_home(scene, ui.home)) return {};
-    const ImageRect frame = frame_in_picture(ui.frame, {0, 0, float(picture.width), float(picture.height)});
-    if (int(frame.width) >= picture.width) return {};
-    return PixelRect{int(frame.x), 0, int(frame.x) + std::max(int(frame.width), 1), picture.height};
+    const ImageRect frame = frame_in_image(ui.frame, {0, 0, float(image.width), float(image.height)});
+    if (int(frame.width) >= image.width) return {};
+    return PixelRect{int(frame.x), 0, int(frame.x) + std::max(int(frame.width), 1), image.height};
 }
 
 void move_camera_to_view(PanelContext& c) {

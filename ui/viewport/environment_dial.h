@@ -1,4 +1,4 @@
-// A dial in a corner of the picture that shows the environment's rotation: top view, the view direction is up. A sky shows its
+// A dial in a corner of the image that shows the environment's rotation: top view, the view direction is up. A sky shows its
 // sun.
 // sun.
 #pragma once
@@ -15,7 +15,7 @@ namespace blush {
 ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward);
 
 // Draws it; a click opens the World tab. Returns true if the dial uses the left button. `seen`: the visible part of the
-// picture.
+// image.
 bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered);
 
 } // namespace blush

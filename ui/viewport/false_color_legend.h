@@ -1,4 +1,4 @@
-// The legend of the false colours, drawn over the picture.
+// The legend of the false colours, drawn over the image.
 #pragma once
 
 #include "scene/view_settings.h"
@@ -8,7 +8,7 @@
 
 namespace blush {
 
-// Along the left edge of the picture: the colours, the values at their boundaries, and the unit. Nothing if false colours are
+// Along the left edge of the image: the colours, the values at their boundaries, and the unit. Nothing if false colours are
 // off.
 void draw_false_color_legend(ImDrawList& draw, const ImageRect& image, const ViewSettings& view);
 

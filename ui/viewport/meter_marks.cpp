@@ -19,9 +19,9 @@ void draw_meters(ImDrawList& draw, const ImageRect& image, const Projection& pro
         draw.AddCircle({p.x, p.y}, em * 0.42f, IM_COL32(0, 0, 0, 200), 0, em * 0.25f);
         draw.AddCircle({p.x, p.y}, em * 0.42f, tone::text, 0, em * 0.12f);
         draw.AddCircleFilled({p.x, p.y}, em * 0.12f, tone::text);
-        const bool read = i < meters.state.answer.size();
+        const bool read = i < meters.state.output.size();
         const std::string text =
-            elided(view.meters[i].name, max_name_width()) + "  " + (read ? reading_text(meters.state.answer[i]) : "...");
+            elided(view.meters[i].name, max_name_width()) + "  " + (read ? reading_text(meters.state.output[i]) : "...");
         // On the side where it has room.
         const float gap = em * 0.6f, right = draw.GetClipRectMax().x - p.x - gap, left = p.x - gap - draw.GetClipRectMin().x;
         const bool on_the_right = right >= left || label_size(text, em * 30).x <= right;

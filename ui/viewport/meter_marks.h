@@ -1,4 +1,4 @@
-// Light meters in the picture, each with its name and reading.
+// Light meters in the image, each with its name and reading.
 #pragma once
 
 #include "ui/views/meters_view.h"

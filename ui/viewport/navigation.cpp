@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-constexpr double turn_per_height = 3.2;   // radians for a drag over the picture's height
+constexpr double turn_per_height = 3.2;   // radians for a drag over the image's height
 constexpr double closer_per_notch = 0.88; // factor of the distance per notch of the wheel
 constexpr double stops_per_height = 8;
 constexpr float stops_per_notch = 0.25f;

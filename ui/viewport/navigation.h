@@ -17,12 +17,12 @@ struct NavigationResult {
     float brighter = 0;              // change of exposure in stops
     bool begins_exposure = false;    // this is a new gesture
     double zoom = 1;                 // factor, about the mouse position
-    double shift_x = 0, shift_y = 0; // shift of the picture in screen pixels
+    double shift_x = 0, shift_y = 0; // shift of the image in screen pixels
 };
 
 class Navigation {
 public:
-    // `image` is the picture's rectangle, `hovered` whether the mouse is over it, `free` whether the viewport may use a press.
+    // `image` is the image's rectangle, `hovered` whether the mouse is over it, `free` whether the viewport may use a press.
     NavigationResult update(const View& view, const ImageRect& image, bool hovered, bool free);
     // True between press and release.
     bool busy() const { return mode_ != Mode::none; }

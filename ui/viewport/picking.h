@@ -1,4 +1,4 @@
-// What is under the mouse, from a frame's AOVs; no rays are traced.
+// Object, material and surface point under the mouse, read from a frame's AOVs; no rays are traced.
 #pragma once
 
 #include "render/frame.h"
@@ -14,7 +14,7 @@ struct Picked {
     std::optional<double> depth; // metres along the ray
 };
 
-// nullopt if the frame has no such plane or nothing was hit. (u, v) is in the picture, (0, 0) top left.
+// nullopt if the frame has no such plane or nothing was hit. (u, v) is in the image, (0, 0) top left.
 Picked pick(const Frame& frame, double u, double v);
 struct SurfacePoint {
     Vec3d position{0, 0, 0};

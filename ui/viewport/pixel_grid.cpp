@@ -7,7 +7,7 @@
 namespace blush {
 namespace {
 
-constexpr float room_for_lines = 8; // screen pixels per picture pixel
+constexpr float room_for_lines = 8; // screen pixels per image pixel
 constexpr ImU32 line_tone = IM_COL32(128, 128, 128, 70);
 constexpr ImU32 text_tones[] = {IM_COL32(255, 130, 120, 255), IM_COL32(140, 230, 120, 255), IM_COL32(140, 180, 255, 255)};
 
@@ -33,7 +33,7 @@ void draw_values(ImDrawList& draw, const ImVec2& at, float height, const float* 
 
 void draw_pixel_grid(ImDrawList& draw, const ImageRect& image, const Region& region, const Frame& frame) {
     const float width = image.width / float(frame.width), height = image.height / float(frame.height);
-    if (width < room_for_lines || frame.divider > 1) return; // the pixels of a coarse preview are not those of the full picture
+    if (width < room_for_lines || frame.divider > 1) return; // the pixels of a coarse preview are not those of the full image
     const Span columns = seen(image.x, width, frame.width, region.x, region.width),
                rows = seen(image.y, height, frame.height, region.y, region.height);
     const float top = std::max(image.y, region.y), bottom = std::min(image.y + image.height, region.y + region.height);

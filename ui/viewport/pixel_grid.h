@@ -1,4 +1,4 @@
-// Pixel borders and pixel values, drawn over the picture at high zoom.
+// Pixel borders and pixel values, drawn over the image at high zoom.
 #pragma once
 
 #include "render/frame.h"

@@ -1,4 +1,4 @@
-// Projection between world and picture for a View. Image coordinates go from (0, 0) top left to (1, 1) bottom right.
+// Projection between world and image for a View. Image coordinates go from (0, 0) top left to (1, 1) bottom right.
 #pragma once
 
 #include "core/vec.h"

@@ -1,9 +1,9 @@
-// The last whole picture, drawn dimmed around a render region.
+// The last whole image, drawn dimmed around a render region.
 #pragma once
 
-#include "scene/picture_region.h"
+#include "scene/image_region.h"
 #include "ui/gl/display_pass.h"
-#include "ui/snapshots/picture_view.h"
+#include "ui/snapshots/image_view.h"
 #include "ui/transform/gizmo.h"
 #include "ui/window/frame_budget.h"
 
@@ -16,16 +16,16 @@ namespace blush {
 class RegionBackdrop {
 public:
     void set_shader(const DisplayShader& shader);
-    // The displayed frame and its denoised picture; kept if the frame is a whole picture.
+    // The displayed frame and its denoised image; kept if the frame is a whole image.
     void remember(const FramePtr& frame, const DenoisedPtr& denoised);
-    // Forgets the picture, for a new scene.
+    // Forgets the image, for a new scene.
     void forget();
-    // True if there is such a picture and it is ready to be drawn.
+    // True if there is such an image and it is ready to be drawn.
     bool ready() const { return drawn_; }
     // Continues to render it with the current view settings while there is time. Returns false while it is not finished.
-    bool update(const DisplayLook& look, const PictureView& view, const FrameBudget& pace);
-    // Draws it dimmed around the region; `image` is the rectangle of the whole picture.
-    void draw(ImDrawList& draw, const ImageRect& image, const PictureRegion& region) const;
+    bool update(const DisplayLook& look, const ImageView& view, const FrameBudget& pace);
+    // Draws it dimmed around the region; `image` is the rectangle of the whole image.
+    void draw(ImDrawList& draw, const ImageRect& image, const ImageRegion& region) const;
 
 private:
     FramePtr frame_;
@@ -36,12 +36,12 @@ private:
     struct Shown {
         FramePtr frame;
         DisplayLook look;
-        PictureView view;
+        ImageView view;
         bool operator==(const Shown&) const = default;
     } shown_;
 };
 
-// The parts of a picture outside a region, as fractions of its sides: above, below, left, right.
-std::array<PictureRegion, 4> around(const PictureRegion& region);
+// The parts of an image outside a region, as fractions of its sides: above, below, left, right.
+std::array<ImageRegion, 4> around(const ImageRegion& region);
 
 } // namespace blush

@@ -28,7 +28,7 @@ const char* hint_of(ViewTool tool) {
 void pick_white(PanelContext& c, double u, double v) {
     const Vec3 white = picked_color(*c.frame, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), u, v, white_radius);
     const float y = luminance(white);
-    if (!(y > 0) || !is_finite(white)) return c.ui.toasts.note("The picture is too dark there to pick a white");
+    if (!(y > 0) || !is_finite(white)) return c.ui.toasts.note("The image is too dark there to pick a white");
     ViewSettings view = c.project().view;
     view.white = {std::max(white.x / y, 0.f), std::max(white.y / y, 0.f), std::max(white.z / y, 0.f)};
     c.apply(SetView{view});
@@ -52,14 +52,14 @@ void place_meter(PanelContext& c, const Projection& projection, double u, double
     c.apply(SetView{view});
 }
 
-void draw_rectangle(ImDrawList& draw, const ImageRect& image, const PictureRegion& r) {
+void draw_rectangle(ImDrawList& draw, const ImageRect& image, const ImageRegion& r) {
     const ImVec2 low{image.x + r.x * image.width, image.y + r.y * image.height};
     const ImVec2 high{low.x + r.width * image.width, low.y + r.height * image.height};
     draw.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32(0, 0, 0, 160), 0, 0, 3); // visible on any background
     draw.AddRect(low, high, tone::text);
 }
 
-void take_region(PanelContext& c, const PictureRegion& region) {
+void take_region(PanelContext& c, const ImageRegion& region) {
     const ViewTool tool = std::exchange(c.ui.tool, ViewTool::none);
     c.ui.tool_start.reset();
     if (region.width <= 0 || region.height <= 0) return;
@@ -72,7 +72,7 @@ void take_region(PanelContext& c, const PictureRegion& region) {
 
 } // namespace
 
-Vec3 picked_color(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, double u, double v, int radius) {
+Vec3 picked_color(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix, double u, double v, int radius) {
     const int x = int(u * frame.width), y = int(v * frame.height);
     Vec3 sum{0, 0, 0};
     int count = 0;
@@ -82,7 +82,7 @@ Vec3 picked_color(const Frame& frame, const DenoisedPicture* denoised, const Pic
     return count > 0 ? sum / float(count) : sum;
 }
 
-PictureRegion region_between(double u0, double v0, double u1, double v1) {
+ImageRegion region_between(double u0, double v0, double u1, double v1) {
     const auto [left, right] = std::minmax({std::clamp(u0, 0.0, 1.0), std::clamp(u1, 0.0, 1.0)});
     const auto [top, bottom] = std::minmax({std::clamp(v0, 0.0, 1.0), std::clamp(v1, 0.0, 1.0)});
     return {float(left), float(top), float(right - left), float(bottom - top)};
@@ -92,16 +92,16 @@ void draw_measured_region(ImDrawList& draw, const ImageRect& image, const ViewSe
     if (view.measured) draw_rectangle(draw, image, *view.measured);
 }
 
-void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const PictureRegion& r, bool covers) {
-    if (r == PictureRegion{}) return;
+void draw_rendered_region(ImDrawList& draw, const ImageRect& image, const ImageRegion& r, bool covers) {
+    if (r == ImageRegion{}) return;
     const auto at = [&](float x, float y) { return ImVec2{image.x + x * image.width, image.y + y * image.height}; };
-    for (const PictureRegion& part : around(r))
+    for (const ImageRegion& part : around(r))
         if (covers) draw.AddRectFilled(at(part.x, part.y), at(part.x + part.width, part.y + part.height), tone::surround);
     const ImVec2 low = at(r.x, r.y), high = at(r.x + r.width, r.y + r.height);
     draw.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, tone::field_filled);
 }
 
-void render_region(PanelContext& c, const PictureRegion& region) {
+void render_region(PanelContext& c, const ImageRegion& region) {
     RenderSettings r = c.project().render;
     r.region = region;
     c.apply(SetRender{r});
@@ -110,7 +110,7 @@ void render_region(PanelContext& c, const PictureRegion& region) {
 bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered) {
     if (c.ui.tool == ViewTool::none) return false;
     draw_hint(*ImGui::GetWindowDrawList(), hint_of(c.ui.tool));
-    if (!c.has_picture()) return true;
+    if (!c.has_image()) return true;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double u = image.u(mouse.x), v = image.v(mouse.y);
     if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && image.contains(mouse.x, mouse.y)) {
@@ -125,7 +125,7 @@ bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& im
         if (!c.ui.tool_start) c.ui.tool = ViewTool::none;
     }
     if (!c.ui.tool_start) return true;
-    const PictureRegion region = region_between(c.ui.tool_start->u, c.ui.tool_start->v, u, v);
+    const ImageRegion region = region_between(c.ui.tool_start->u, c.ui.tool_start->v, u, v);
     draw_rectangle(*ImGui::GetWindowDrawList(), image, region);
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) take_region(c, region);
     return true;

@@ -9,7 +9,7 @@
 #include "ui/lights/look_through_light.h"
 #include "ui/lights/multi_edit_apply.h"
 #include "ui/snapshots/aov_bar.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/viewport/camera_frame_overlay.h"
 #include "ui/viewport/environment_dial.h"
 #include "ui/viewport/false_color_legend.h"
@@ -25,7 +25,7 @@
 namespace blush {
 namespace {
 
-// Milliseconds for a UI frame while a picture is being drawn: normally; while the user waits for changed view settings; and while
+// Milliseconds for a UI frame while an image is being drawn: normally; while the user waits for changed view settings; and while
 // a light mix is edited, which must be visible in the same frame.
 constexpr double default_frame = 16, view_change_frame = 20, mix_edit_frame = 12;
 
@@ -34,29 +34,29 @@ Region window_region() {
     return {at.x, at.y, size.x, size.y};
 }
 
-// Rectangle of the picture in the current window; fills the rest of the window.
-ImageRect viewport_picture_rect(const PanelContext& c) {
+// Rectangle of the image in the current window; fills the rest of the window.
+ImageRect viewport_image_rect(const PanelContext& c) {
     const Region region = window_region();
-    const ImageRect image = picture_rect(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
+    const ImageRect image = image_rect(c.ui.zoom, region, std::max(c.render_width, 1), std::max(c.render_height, 1));
     const ImVec2 high{region.x + region.width, region.y + region.height};
     const bool covered = image.x <= region.x && image.y <= region.y && image.x + image.width >= high.x && image.y + image.height >= high.y;
     if (!covered) ImGui::GetWindowDrawList()->AddRectFilled({region.x, region.y}, high, tone::surround);
     return image;
 }
 
-// The visible part of the picture, where captions are placed.
+// The visible part of the image, where captions are placed.
 ImageRect visible_part(const ImageRect& image) {
     const Region r = window_region();
     const float left = std::max(image.x, r.x), top = std::max(image.y, r.y);
     return {left, top, std::min(image.x + image.width, r.x + r.width) - left, std::min(image.y + image.height, r.y + r.height) - top};
 }
 
-void zoom_picture(PanelContext& c, const NavigationResult& wish) {
+void zoom_image(PanelContext& c, const NavigationResult& input) {
     const Region region = window_region();
     const int width = std::max(c.render_width, 1), height = std::max(c.render_height, 1);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    if (wish.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, wish.zoom);
-    if (wish.shift_x != 0 || wish.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, wish.shift_x, wish.shift_y);
+    if (input.zoom != 1) c.ui.zoom = zoomed(c.ui.zoom, region, width, height, {mouse.x, mouse.y}, input.zoom);
+    if (input.shift_x != 0 || input.shift_y != 0) c.ui.zoom = shifted(c.ui.zoom, region, width, height, input.shift_x, input.shift_y);
 }
 
 void draw_centred(const char* text) {
@@ -64,7 +64,7 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
-// A caption at the lower or upper edge of the picture.
+// A caption at the lower or upper edge of the image.
 void write_caption(const ImageRect& image, const std::string& text, bool above = false) {
     const float em = ImGui::GetFontSize(), room = image.width - 2 * em, margin = em * 0.7f;
     const ImVec2 size = label_size(text, room);
@@ -93,7 +93,7 @@ void expose(PanelContext& c, float stops, Gesture gesture) {
     c.apply(SetView{v}, gesture);
 }
 
-// The light whose glyph is at this position, else the object in the picture.
+// The light whose glyph is at this position, else the object in the image.
 Picked picked_at(PanelContext& c, const Projection& projection, const ImageRect& image, const ScreenPoint& at) {
     if (c.ui.settings.overlays) {
         if (const Id<Node> light = light_under(c.scene(), projection, image, c.ui, at)) return {light, {}, {}};
@@ -114,7 +114,7 @@ void inspect(PanelContext& c, double u, double v) {
     c.ui.docks.to_front.insert("pixel");
 }
 
-// True if the frame, and its denoised picture if it is shown, have group planes for these gains.
+// True if the frame, and its denoised image if it is shown, have group planes for these gains.
 bool has_planes_for(const PanelContext& c, const Gains& gains, bool denoised) {
     if (!c.frame || gains.empty() || c.frame->groups.size() != gains.size()) return false;
     return !denoised || (c.denoised && c.denoised->groups && c.denoised->groups->planes.size() == gains.size());
@@ -130,7 +130,7 @@ Result<void> Viewport::set_display_shader(const DisplayShader& shader) {
 }
 
 // Applies the current mix; the session's own mix of the same planes follows later.
-void Viewport::upload_frame(const FramePtr& shown, const PictureView& view, const Gains& gains, bool background_as_it_is) {
+void Viewport::upload_frame(const FramePtr& shown, const ImageView& view, const Gains& gains, bool background_as_it_is) {
     const Frame& frame = *shown;
     const bool special = is_special(frame, view), mixes = !gains.empty() && gains.size() == frame.groups.size() && gains != frame.gains;
     if (mixes && !special && !background_as_it_is) {
@@ -153,49 +153,49 @@ void Viewport::upload_denoised(const DenoisedPtr& denoised, const Gains& gains) 
     display_.upload_denoised(denoised->width, denoised->height, mixed_denoised_);
 }
 
-void Viewport::upload_thinned(const MixPreviewSource& moved, const Gains& gains, int step) {
-    const MixPreview::Picture raw = preview_.raw(moved, gains, step);
+void Viewport::upload_subsampled(const MixPreviewSource& moved, const Gains& gains, int step) {
+    const MixPreview::Preview raw = preview_.raw(moved, gains, step);
     display_.upload(raw.width, raw.height, raw.values);
     if (!moved.shows_denoised) return;
-    const MixPreview::Picture denoised = preview_.denoised(moved, gains, step);
+    const MixPreview::Preview denoised = preview_.denoised(moved, gains, step);
     display_.upload_denoised(denoised.width, denoised.height, denoised.values);
 }
 
-// What the user wants to see.
-struct Viewport::WantedPicture {
-    PictureView view;
+// The inputs of the image that the viewport should show.
+struct Viewport::WantedImage {
+    ImageView view;
     DisplayLook look;
     Gains gains;             // of the light groups; empty without a mix
-    MixPreviewSource source; // the pictures, for a preview of the mix
+    MixPreviewSource source; // the images, for a preview of the mix
     bool special = false;    // not the beauty
 
-    // True if the gains can be applied to the group planes of all pictures that are shown.
+    // True if the gains can be applied to the group planes of all images that are shown.
     bool can_be_mixed(const PanelContext& c) const {
         return has_planes_for(c, gains, source.shows_denoised) && !special && !look.numbers.background_as_it_is;
     }
 };
 
-Viewport::WantedPicture Viewport::wanted_picture(PanelContext& c) {
+Viewport::WantedImage Viewport::wanted_image(PanelContext& c) {
     const ViewSettings v = c.shown_view();
-    WantedPicture w;
-    w.view = c.ui.picture_view(c.frame ? int(c.frame->bounces.size()) : 0);
-    if (w.view.show == PictureView::Show::beauty && v.false_color.of == FalseColor::Of::lux) w.view.show = PictureView::Show::illuminance;
+    WantedImage w;
+    w.view = c.ui.image_view(c.frame ? int(c.frame->bounces.size()) : 0);
+    if (w.view.show == ImageView::Show::beauty && v.false_color.of == FalseColor::Of::lux) w.view.show = ImageView::Show::illuminance;
     w.special = c.frame && is_special(*c.frame, w.view);
     w.look.numbers = display_parameters_of(v);
     if (w.special && is_map(w.view)) w.look.numbers.false_color = {};            // it has colours of its own
     if (w.special && is_data(w.view)) w.look.numbers.background_as_it_is = true; // all its pixels count as background
-    w.look.mix = w.special ? PictureMix{} : mix_of(c.ui.denoise, c.denoised != nullptr);
+    w.look.mix = w.special ? ImageMix{} : mix_of(c.ui.denoise, c.denoised != nullptr);
     w.look.over_checker = !w.special && c.frame && c.frame->transparent;
     if (c.mixing) w.gains = c.mixing->gains;
     w.source = {c.frame, c.denoised, w.look.mix.raw_weight != 0, w.look.mix.denoised_weight != 0};
     return w;
 }
 
-PictureInputs Viewport::picture_inputs(const PanelContext& c, const WantedPicture& w, const FrameBudget& pace) {
+ImageInputs Viewport::image_inputs(const PanelContext& c, const WantedImage& w, const FrameBudget& pace) {
     const auto now = FrameBudget::Clock::now();
-    PictureInputs in;
+    ImageInputs in;
     in.has_frame = c.frame && c.frame->width > 0;
-    in.has_picture = uploaded_frame_ != nullptr;
+    in.has_image = uploaded_frame_ != nullptr;
     in.new_frame =
         c.frame != uploaded_frame_ || w.view != uploaded_view_ || w.look.numbers.background_as_it_is != look_.numbers.background_as_it_is;
     in.shows_denoised = w.source.shows_denoised;
@@ -214,9 +214,9 @@ PictureInputs Viewport::picture_inputs(const PanelContext& c, const WantedPictur
     return in;
 }
 
-void Viewport::upload(const PanelContext& c, const WantedPicture& w, const PictureStep& step) {
+void Viewport::upload(const PanelContext& c, const WantedImage& w, const ImageStep& step) {
     if (step.preview_step > 1)
-        upload_thinned(w.source, w.gains, step.preview_step);
+        upload_subsampled(w.source, w.gains, step.preview_step);
     else if (step.takes_frame)
         upload_frame(c.frame, w.view, w.gains, w.look.numbers.background_as_it_is);
     if (step.takes_denoised && step.preview_step == 1) upload_denoised(c.denoised, w.gains);
@@ -230,8 +230,8 @@ void Viewport::upload(const PanelContext& c, const WantedPicture& w, const Pictu
 // Carries out the step that next() decides.
 void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
     using Seconds = std::chrono::duration<double>;
-    const WantedPicture wanted = wanted_picture(c);
-    const PictureStep step = next(state_, picture_inputs(c, wanted, pace));
+    const WantedImage wanted = wanted_image(c);
+    const ImageStep step = next(state_, image_inputs(c, wanted, pace));
     if (step.pause_in) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, Seconds(*step.pause_in).count());
     if (step.begins) upload(c, wanted, step);
     if (step.begins || step.restarts) display_.begin(look_ = wanted.look);
@@ -252,16 +252,16 @@ void Viewport::take_frame(PanelContext& c, const FrameBudget& pace) {
 
 // For a render region.
 void Viewport::draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace) {
-    const PictureRegion& region = c.project().render.region;
+    const ImageRegion& region = c.project().render.region;
     if (shown_frame_->whole) region_backdrop_.remember(shown_frame_, uploaded_denoised_);
-    if (region == PictureRegion{}) return;
+    if (region == ImageRegion{}) return;
     if (!region_backdrop_.update(look_, uploaded_view_, pace)) c.ui.seconds_to_next_frame = 0;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (region_backdrop_.ready()) region_backdrop_.draw(draw, image, region);
     draw_rendered_region(draw, image, region, !region_backdrop_.ready());
 }
 
-// A layer of its own over the picture: blending a full layer would cost as much as the picture.
+// A layer of its own over the image: blending a full layer would cost as much as the image.
 void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
     const Outlined wanted{shown_frame_, c.ui.selected};
     // Not in the same UI frame as the display pass, which has used the time budget.
@@ -280,7 +280,7 @@ void Viewport::draw_outline(const PanelContext& c, const ImageRect& image) {
     }
 }
 
-// The picture, darker to the left and right of the frame.
+// The image, darker to the left and right of the frame.
 void Viewport::draw_texture(const ImageRect& image, const std::optional<ImageRect>& frame) const {
     // clipped to the window: coordinates far outside lose precision
     const ImageRect seen = visible_part(image);
@@ -297,7 +297,7 @@ void Viewport::draw_texture(const ImageRect& image, const std::optional<ImageRec
     part(end, right, IM_COL32(dim, dim, dim, 255));
 }
 
-void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame) {
+void Viewport::draw_image(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     // Pixel by pixel, the nearest pixel is what the linear filter gives, and costs less.
     const bool one_to_one = image.width == float(shown_frame_->width) && image.height == float(shown_frame_->height) &&
@@ -308,7 +308,7 @@ void Viewport::draw_picture(PanelContext& c, const ImageRect& image, bool outlin
     draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     draw_texture(image, frame);
     draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
-    // The outline is drawn at the picture's size on the screen; skipped if that is far larger than the window.
+    // The outline is drawn at the image's size on the screen; skipped if that is far larger than the window.
     const Region region = window_region();
     const bool fits = image.width <= region.width && image.height <= region.height;
     if (outlined && fits) draw_outline(c, image);
@@ -320,41 +320,42 @@ void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const
         // Frames from before the request do not have the plane.
         const AovView& wanted = c.ui.aov;
         const bool lacks =
-            wanted.show != PictureView::Show::beauty && uploaded_view_ == picture_view(wanted, int(shown_frame_->bounces.size()));
+            wanted.show != ImageView::Show::beauty && uploaded_view_ == image_view(wanted, int(shown_frame_->bounces.size()));
         if (lacks) write_caption(image, name_of(wanted, shown_frame_.get()) + " is not rendered yet");
         return;
     }
-    if (uploaded_view_.show == PictureView::Show::illuminance) return;
+    if (uploaded_view_.show == ImageView::Show::illuminance) return;
     write_caption(image, caption_of(*shown_frame_, uploaded_view_));
 }
 
-void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, const Projection& projection, const ImageRect& image) {
-    if (wish.view) {
+void Viewport::handle_requests(PanelContext& c, const NavigationResult& input, const Projection& projection, const ImageRect& image) {
+    if (input.view) {
         const bool was_home = is_at_home(c.scene(), c.ui.home);
-        c.document.navigate(*wish.view);
+        c.document.navigate(*input.view);
         move_light_to_view(c);
         if (was_home) move_camera_to_view(c);
     }
-    if (wish.begins_exposure) {
+    if (input.begins_exposure) {
         exposure_gesture_ = c.ui.gestures.begin();
         c.ui.gestures.end();
     }
-    if (wish.brighter != 0) expose(c, wish.brighter, exposure_gesture_);
-    zoom_picture(c, wish);
-    if (wish.turned != 0) turn_surroundings(c, wish.turned);
-    if (wish.flying) c.ui.seconds_to_next_frame = 0;
-    if (wish.focus) focus_at(c, projection, image.u(wish.focus->x), image.v(wish.focus->y));
-    if (wish.inspect && image.contains(wish.inspect->x, wish.inspect->y)) inspect(c, image.u(wish.inspect->x), image.v(wish.inspect->y));
-    if (wish.select) {
-        const Picked picked = picked_at(c, projection, image, *wish.select);
+    if (input.brighter != 0) expose(c, input.brighter, exposure_gesture_);
+    zoom_image(c, input);
+    if (input.turned != 0) turn_surroundings(c, input.turned);
+    if (input.flying) c.ui.seconds_to_next_frame = 0;
+    if (input.focus) focus_at(c, projection, image.u(input.focus->x), image.v(input.focus->y));
+    if (input.inspect && image.contains(input.inspect->x, input.inspect->y))
+        inspect(c, image.u(input.inspect->x), image.v(input.inspect->y));
+    if (input.select) {
+        const Picked picked = picked_at(c, projection, image, *input.select);
         c.ui.select(picked.node, picked.material);
     }
-    if (wish.toggle) {
-        const Picked picked = picked_at(c, projection, image, *wish.toggle);
+    if (input.toggle) {
+        const Picked picked = picked_at(c, projection, image, *input.toggle);
         if (picked.node && !toggle_link(c, picked.node, &Light::lit_objects)) c.ui.toggle(picked.node);
     }
-    if (wish.toggle_shadow) {
-        const Picked picked = picked_at(c, projection, image, *wish.toggle_shadow);
+    if (input.toggle_shadow) {
+        const Picked picked = picked_at(c, projection, image, *input.toggle_shadow);
         if (picked.node && !toggle_link(c, picked.node, &Light::shadow_casters))
             c.ui.toasts.note("Select a light first, to edit its shadow linking");
     }
@@ -362,29 +363,29 @@ void Viewport::handle_requests(PanelContext& c, const NavigationResult& wish, co
 
 ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     take_frame(c, pace);
-    const ImageRect image = viewport_picture_rect(c);
+    const ImageRect image = viewport_image_rect(c);
     ImGui::SetCursorPos({0, 0});
-    ImGui::InvisibleButton("picture", ImGui::GetWindowSize(),
+    ImGui::InvisibleButton("image", ImGui::GetWindowSize(),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     c.ui.cursor.reset();
-    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = PicturePoint{image.u(mouse.x), image.v(mouse.y)};
+    if (hovered && image.contains(mouse.x, mouse.y)) c.ui.cursor = ImagePosition{image.u(mouse.x), image.v(mouse.y)};
     if (!c.frame) {
         shown_frame_ = uploaded_frame_ = nullptr; // nothing is displayed any more
         region_backdrop_.forget();
     }
     if (!shown_frame_) {
-        transformer_.abandon(c);
+        transformer_.cancel(c);
         using State = SessionStatus::State;
         const bool nothing_open = (c.status.state == State::idle || c.status.state == State::complete) && c.scene().nodes.empty();
         draw_centred(nothing_open ? "Drop a glTF scene here, or press Ctrl+O" : "Preparing the first image");
         return image;
     }
-    // A comparison and the surroundings of a region are drawn over the picture and dimmed with it.
-    const bool alone = c.ui.snapshots.compare.mode == Comparison::Mode::off && c.project().render.region == PictureRegion{};
-    draw_picture(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected),
-                 alone ? passepartout_of(c, image) : std::nullopt);
+    // A comparison and the surroundings of a region are drawn over the image and dimmed with it.
+    const bool alone = c.ui.snapshots.compare.mode == Comparison::Mode::off && c.project().render.region == ImageRegion{};
+    draw_image(c, image, c.ui.settings.overlays && c.scene().nodes.contains(c.ui.selected),
+               alone ? passepartout_of(c, image) : std::nullopt);
     move_view_to_light(c);
     compare_.draw(c, image, visible_part(image), look_, pace);
     const View view = c.scene().view;
@@ -413,15 +414,15 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
 }
 
 ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const char* caption) {
-    transformer_.abandon(c);
+    transformer_.cancel(c);
     take_frame(c, pace);
-    const ImageRect image = viewport_picture_rect(c);
+    const ImageRect image = viewport_image_rect(c);
     if (!shown_frame_) {
         draw_centred("Preparing the first image");
         return image;
     }
     region_backdrop_.forget(); // they belong to the previous scene
-    draw_picture(c, image, false, {});
+    draw_image(c, image, false, {});
     write_caption(visible_part(image), caption, true); // below is the progress of the job
     return image;
 }
@@ -447,9 +448,9 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
 }
 
 void Viewport::navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle) {
-    const NavigationResult wish = navigation_.update(c.scene().view, image, hovered, !on_handle);
+    const NavigationResult input = navigation_.update(c.scene().view, image, hovered, !on_handle);
     if (navigation_.busy() && !navigating_) c.ui.gestures.begin();
-    handle_requests(c, wish, projection, image);
+    handle_requests(c, input, projection, image);
     if (!navigation_.busy() && navigating_) c.ui.gestures.end();
     navigating_ = navigation_.busy();
 }

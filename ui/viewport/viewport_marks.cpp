@@ -63,9 +63,9 @@ void draw_hint(ImDrawList& draw, const std::string& text) {
     const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
     const float em = ImGui::GetFontSize(), wrap = std::max(high.x - low.x - 3 * em, em);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    // Below the list of passes, if it would reach there.
-    const bool reaches_passes = size.x > high.x - low.x - 26 * em;
-    const ImVec2 at{std::round((low.x + high.x - size.x) / 2), std::round(low.y + em * (reaches_passes ? 2.6f : 1.f))};
+    // Below the list of AOVs, if it would reach there.
+    const bool reaches_aovs = size.x > high.x - low.x - 26 * em;
+    const ImVec2 at{std::round((low.x + high.x - size.x) / 2), std::round(low.y + em * (reaches_aovs ? 2.6f : 1.f))};
     draw.AddRectFilled({at.x - em * 0.6f, at.y - em * 0.3f}, {at.x + size.x + em * 0.6f, at.y + size.y + em * 0.3f},
                        IM_COL32(20, 20, 20, 220), em * 0.25f);
     draw.AddText(ImGui::GetFont(), em, at, tone::text, text.c_str(), nullptr, wrap);

@@ -1,4 +1,4 @@
-// Overlay drawing over the picture: lines given in the world, labels, and a line of text at the top.
+// Overlay drawing over the image: lines given in the world, labels, and a line of text at the top.
 #pragma once
 
 #include "ui/transform/gizmo.h"
@@ -23,7 +23,7 @@ struct WorldPen {
     void cross(const Vec3d& centre, double half) const;
 };
 
-// A ring around the inspected pixel; (u, v) in the picture.
+// A ring around the inspected pixel; (u, v) in the image.
 void draw_read_pixel(ImDrawList& draw, const ImageRect& image, double u, double v);
 
 // Widest part of a label or hint that a name may take: names can have any length.

@@ -10,7 +10,7 @@ std::vector<float> gains_of(const BouncesView& view, int planes) {
     for (int k = 0; k < planes; ++k) {
         float& g = gains[size_t(k)];
         switch (view.mode) {
-        case Mode::picture: break;
+        case Mode::image: break;
         case Mode::single: g = k == view.bounce; break;
         case Mode::cumulative: g = k <= view.bounce; break;
         case Mode::direct: g = k <= 1; break;
@@ -23,9 +23,9 @@ std::vector<float> gains_of(const BouncesView& view, int planes) {
     return gains;
 }
 
-PictureView picture_view(const BouncesView& view, int planes) {
-    if (!view.open || view.mode == BouncesView::Mode::picture) return {};
-    return {PictureView::Show::bounces, gains_of(view, planes)};
+ImageView image_view(const BouncesView& view, int planes) {
+    if (!view.open || view.mode == BouncesView::Mode::image) return {};
+    return {ImageView::Show::bounces, gains_of(view, planes)};
 }
 
 double play(BouncesView& view, double now, int planes) {

@@ -13,9 +13,9 @@ std::string signed_text(double value) { return fmt::format("{}{:.2f}", value <= 
 
 const char* kind_text(ConvergencePoint::Kind kind) {
     switch (kind) {
-    case ConvergencePoint::Kind::estimated: return "raw picture, estimated";
-    case ConvergencePoint::Kind::measured: return "raw picture, against the reference";
-    case ConvergencePoint::Kind::denoised: return "denoised picture";
+    case ConvergencePoint::Kind::estimated: return "raw image, estimated";
+    case ConvergencePoint::Kind::measured: return "raw image, against the reference";
+    case ConvergencePoint::Kind::denoised: return "denoised image";
     }
     return "";
 }

@@ -13,7 +13,7 @@ namespace blush {
 struct RecorderCost {
     double estimating = 0; // estimating errors from the half buffers of every frame; status bar and stop rules use them as well
     double recording = 0;  // on the UI thread
-    double measuring = 0;  // measuring against a reference, or against the raw picture
+    double measuring = 0;  // measuring against a reference, or against the raw image
     double rendering = 0;
     double recorder_fraction() const { return rendering > 0 ? (recording + measuring) / rendering : 0; }
     double estimate_fraction() const { return rendering > 0 ? estimating / rendering : 0; }
@@ -37,7 +37,7 @@ struct ConvergenceView {
     ErrorMetric metric = ErrorMetric::rmse;
     ProgressAxis axis = ProgressAxis::seconds;
     std::array<float, 2> targets{}; // target of each metric; 0: none
-    bool denoised = false;          // also record a curve of the denoised picture
+    bool denoised = false;          // also record a curve of the denoised image
     bool reference = false;         // measure against a reference
     int renaming = 0;               // id of the run whose name is being edited
     std::string rename_text;
@@ -45,8 +45,8 @@ struct ConvergenceView {
     // Updated by the editor.
     ConvergenceRuns runs;
     RecorderCost cost;
-    ReferenceStatus news;
-    size_t waiting = 0; // number of denoised pictures whose error is not known yet
+    ReferenceStatus reference_status;
+    size_t waiting = 0; // number of denoised images whose error is not known yet
 
     // Executed by the editor after the panels are drawn.
     std::optional<Export> wanted_export;

@@ -8,7 +8,7 @@
 
 namespace blush {
 
-PictureMix mix_of(const DenoiseView& view, bool has_denoised) {
+ImageMix mix_of(const DenoiseView& view, bool has_denoised) {
     if (!has_denoised) return {};
     switch (view.show) {
     case DenoiseView::Show::raw: return {1, 0};
@@ -19,8 +19,8 @@ PictureMix mix_of(const DenoiseView& view, bool has_denoised) {
     return {};
 }
 
-Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y) {
-    // Centre of the frame's pixel in the coarser picture, computed as in the display pass.
+Vec3 denoised_pixel(const Frame& frame, const DenoisedImage& denoised, int x, int y) {
+    // Centre of the frame's pixel in the coarser image, computed as in the display pass.
     const auto in_coarse = [](int i, int fine, int coarse) {
         return std::min(int((float(i) + 0.5f) * (float(coarse) / float(fine))), coarse - 1);
     };
@@ -29,14 +29,14 @@ Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, 
     return {rgb[0], rgb[1], rgb[2]};
 }
 
-Vec3 mixed_pixel(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, int x, int y) {
+Vec3 mixed_pixel(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix, int x, int y) {
     const float* rgba = &frame.rgba[4 * (size_t(y) * size_t(frame.width) + size_t(x))];
     Vec3 c = Vec3{rgba[0], rgba[1], rgba[2]} * mix.raw_weight;
     if (denoised && mix.denoised_weight != 0) c = c + denoised_pixel(frame, *denoised, x, y) * mix.denoised_weight;
     return {std::abs(c.x), std::abs(c.y), std::abs(c.z)};
 }
 
-std::vector<float> mixed_picture(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix) {
+std::vector<float> mixed_image(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix) {
     std::vector<float> rgb(frame.rgba.size() / 4 * 3);
     float* to = rgb.data();
     for (int y = 0; y < frame.height; ++y)
@@ -49,7 +49,7 @@ std::vector<float> mixed_picture(const Frame& frame, const DenoisedPicture* deno
     return rgb;
 }
 
-std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedPicture* denoised) {
+std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedImage* denoised) {
     if (!view.wants_denoised()) return "raw";
     if (!denoised) return "raw, denoising";
     std::string text = view.show == DenoiseView::Show::denoised ? "denoised"

@@ -1,8 +1,8 @@
-// How raw and denoised picture are shown: either, a blend, or their difference. Does not restart the render.
+// How raw and denoised image are shown: either, a blend, or their difference. Does not restart the render.
 #pragma once
 
 #include "render/frame.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 
 #include <string>
 #include <vector>
@@ -20,21 +20,21 @@ struct DenoiseView {
 };
 
 // Weights of the displayed combination, in scene-linear values: |raw_weight raw + denoised_weight denoised|.
-struct PictureMix {
+struct ImageMix {
     float raw_weight = 1, denoised_weight = 0;
-    bool operator==(const PictureMix&) const = default;
+    bool operator==(const ImageMix&) const = default;
 };
-// Without a denoised picture the raw one is shown.
-PictureMix mix_of(const DenoiseView& view, bool has_denoised);
+// Without a denoised image the raw one is shown.
+ImageMix mix_of(const DenoiseView& view, bool has_denoised);
 
-// The pixel of the (possibly coarser) denoised picture at pixel (x, y) of the frame.
-Vec3 denoised_pixel(const Frame& frame, const DenoisedPicture& denoised, int x, int y);
-Vec3 mixed_pixel(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix, int x, int y);
+// The pixel of the (possibly coarser) denoised image at pixel (x, y) of the frame.
+Vec3 denoised_pixel(const Frame& frame, const DenoisedImage& denoised, int x, int y);
+Vec3 mixed_pixel(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix, int x, int y);
 // All pixels: width * height * 3.
-std::vector<float> mixed_picture(const Frame& frame, const DenoisedPicture* denoised, const PictureMix& mix);
+std::vector<float> mixed_image(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix);
 
-// "denoised", "blend 40 %, 16 spp and 1.2 s behind", "raw, denoising": which picture is shown, and how far it is behind the raw
+// "denoised", "blend 40 %, 16 spp and 1.2 s behind", "raw, denoising": which image is shown, and how far it is behind the raw
 // one.
-std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedPicture* denoised);
+std::string shown_text(const DenoiseView& view, const Frame& frame, const DenoisedImage* denoised);
 
 } // namespace blush

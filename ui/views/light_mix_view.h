@@ -7,8 +7,8 @@ namespace blush {
 
 struct LightMixView {
     bool open = false;
-    bool stays_off = false; // the user has switched grouping off for this scene
-    std::string unfolded;   // the group whose colour settings are shown
+    bool disabled_by_user = false; // the user has switched grouping off for this scene
+    std::string unfolded;          // the group whose colour settings are shown
 };
 
 } // namespace blush

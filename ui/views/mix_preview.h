@@ -10,7 +10,7 @@
 
 namespace blush {
 
-// The source: the groups of a frame, of its denoised picture, or of both.
+// The source: the groups of a frame, of its denoised image, or of both.
 struct MixPreviewSource {
     FramePtr frame;
     DenoisedPtr denoised;
@@ -26,14 +26,14 @@ public:
     // given milliseconds, at the last measured speed. `drawing`: milliseconds to draw this many pixels.
     int step_in_time(const MixPreviewSource& moved, double milliseconds, const std::function<double(double pixels)>& drawing) const;
 
-    struct Picture {
+    struct Preview {
         int width = 0, height = 0;
         std::shared_ptr<const std::vector<float>> values;
     };
-    // 4 values per pixel, the last is 1; the others are unspecified if the raw picture is not shown.
-    Picture raw(const MixPreviewSource& moved, const Gains& gains, int step);
+    // 4 values per pixel, the last is 1; the others are unspecified if the raw image is not shown.
+    Preview raw(const MixPreviewSource& moved, const Gains& gains, int step);
     // 3 values per pixel.
-    Picture denoised(const MixPreviewSource& moved, const Gains& gains, int step);
+    Preview denoised(const MixPreviewSource& moved, const Gains& gains, int step);
     // The edit has ended: frees the cached planes.
     void forget() { raw_ = denoised_ = {}; }
 
@@ -47,12 +47,13 @@ private:
         std::shared_ptr<std::vector<float>> rgba = {}, rgb = {};
     };
     bool is_kept(const Kept& kept, const std::shared_ptr<const void>& of, int step) const;
-    void thin(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height, int step);
+    void subsample(Kept& kept, const std::shared_ptr<const void>& of, const std::vector<PlaneSpan>& planes, int width, int height,
+                   int step);
     void mix(const Kept& kept, const Gains& gains, std::vector<float>& rgb);
 
     Kept raw_, denoised_;
     // Pixels of one plane per millisecond: conservative initial values.
-    double thinning_ = 1.5e5, mixing_ = 5e5;
+    double subsampling_ = 1.5e5, mixing_ = 5e5;
 };
 
 } // namespace blush

@@ -9,7 +9,7 @@ namespace blush {
 
 struct RouletteView {
     enum class Map { none, path_length, survival };
-    static constexpr const char* map_names[] = {"Picture", "Path length", "Survival"};
+    static constexpr const char* map_names[] = {"Image", "Path length", "Survival"};
 
     bool open = false;
     Map map = Map::none;                    // what the viewport shows

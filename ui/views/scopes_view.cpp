@@ -14,15 +14,15 @@ constexpr int stops_bins = 128, display_bins = 128; // width 1/8 stop; width 2 o
 constexpr int wave_columns = 160, wave_levels = 64;
 
 // Reads every step-th pixel of every step-th row.
-struct Thinned {
+struct Subsampled {
     int width = 0;
     std::vector<float> rgb;
     std::vector<Vec3> albedo;
     std::vector<float> coverage;
 };
-Thinned subsampled(const ShownPicture& p, int step) {
+Subsampled subsampled(const ShownImage& p, int step) {
     const Frame& f = *p.frame;
-    Thinned t;
+    Subsampled t;
     for (int y = step / 2; y < f.height; y += step) {
         t.width = 0;
         for (int x = step / 2; x < f.width; x += step, ++t.width) {
@@ -38,13 +38,13 @@ Thinned subsampled(const ShownPicture& p, int step) {
 
 } // namespace
 
-Scopes scopes_of(const ShownPicture& picture) {
+Scopes scopes_of(const ShownImage& image) {
     Scopes s;
-    s.step = std::max(1, int(std::sqrt(double(picture.frame->width) * picture.frame->height / enough_pixels)));
-    Thinned t = subsampled(picture, s.step);
+    s.step = std::max(1, int(std::sqrt(double(image.frame->width) * image.frame->height / enough_pixels)));
+    Subsampled t = subsampled(image, s.step);
     s.scene = histogram(t.rgb, stops_axis, stops_bins);
     s.scene_wave = waveform(t.rgb, t.width, stops_axis, wave_columns, wave_levels);
-    if (!show(*picture.color, picture.view, t.rgb, {t.albedo, t.coverage})) return s;
+    if (!show(*image.color, image.view, t.rgb, {t.albedo, t.coverage})) return s;
     s.displayed = histogram(t.rgb, display_axis, display_bins);
     s.displayed_wave = waveform(t.rgb, t.width, display_axis, wave_columns, wave_levels);
     return s;

@@ -1,9 +1,9 @@
-// Histograms and waveforms of the displayed picture, computed in the background.
+// Histograms and waveforms of the displayed image, computed in the background.
 #pragma once
 
 #include "measure/metrics/scopes.h"
 #include "ui/jobs/async_query.h"
-#include "ui/views/shown_picture.h"
+#include "ui/views/shown_image.h"
 
 namespace blush {
 
@@ -13,12 +13,12 @@ struct Scopes {
     Waveform scene_wave, displayed_wave;
 };
 // Reads about a hundred thousand pixels.
-Scopes scopes_of(const ShownPicture& picture);
+Scopes scopes_of(const ShownImage& image);
 
 // State of the panel.
 struct ScopesView {
     bool open = false;
-    AsyncQuery<ShownPicture, Scopes> scopes;
+    AsyncQuery<ShownImage, Scopes> scopes;
 };
 
 } // namespace blush

@@ -14,10 +14,10 @@ namespace blush {
 namespace {
 
 constexpr int cells_across = 40, cells_down = 24;
-constexpr double min_subject_area = 0.005; // minimum area of the selection, or of what is in focus, to be the subject
-constexpr double sharp_blur = 0.01;        // diameter of the circle of confusion divided by the height of the picture
+constexpr double min_subject_area = 0.005; // minimum area of the selection, or of the objects in focus, to be the subject
+constexpr double sharp_blur = 0.01;        // diameter of the circle of confusion divided by the height of the image
 constexpr double darkest = 1.0 / 256;      // of the mean: darker cells are clamped to this
-constexpr double max_clipped = 0.03;       // of the subject, and of the picture
+constexpr double max_clipped = 0.03;       // of the subject, and of the image
 constexpr double max_mean_display = 0.55;  // mean display luminance
 constexpr float max_lowered = 6, max_lowered_for_background = 1.5f, step = 0.25f; // stops
 constexpr float display_white = 0.995f;
@@ -30,7 +30,7 @@ struct Cell {
 // Means of the selected pixels per cell; cells without any are skipped.
 struct Cells {
     std::vector<Vec3> means;
-    std::vector<double> shares; // fraction of the picture's pixels
+    std::vector<double> shares; // fraction of the image's pixels
     double share = 0;
 };
 
@@ -56,7 +56,7 @@ template <class Belongs> Cells cells_of(const Frame& f, const Belongs& belongs) 
     return found;
 }
 
-// Blur of a point at `depth` metres, as a fraction of the picture's height (thin lens).
+// Blur of a point at `depth` metres, as a fraction of the image's height (thin lens).
 double blur(const Lens& lens, double depth) {
     return lens.aperture_radius * std::abs(depth - lens.focus_distance) / (depth * lens.focus_distance * std::tan(lens.yfov_radians / 2));
 }
@@ -131,10 +131,10 @@ std::optional<float> subject_exposure(const Frame& frame, const Scene& scene, st
         return shown.exposure_ev;
     };
     const float for_subject = lowered(subject, wanted, max_lowered, 1);
-    // A dark subject in front of a bright background: limits the exposure so that the whole picture is not too bright.
-    const float for_picture =
+    // A dark subject in front of a bright background: limits the exposure so that the whole image is not too bright.
+    const float for_image =
         lowered(cells_of(frame, [](size_t) { return true; }), for_subject, max_lowered_for_background, max_mean_display);
-    return std::clamp(for_picture, -20.f, 20.f);
+    return std::clamp(for_image, -20.f, 20.f);
 }
 
 } // namespace blush

@@ -17,7 +17,7 @@ constexpr float max_color = 1e6f;
 
 ImVec4 shown(const Vec3& linear) { return {srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z), 1}; }
 
-// The next click in the picture sets the field with this id.
+// The next click in the image sets the field with this id.
 void take_dropper(UiState& ui, unsigned field) {
     ui.values.dropper = field;
     ui.values.picked.reset();
@@ -26,7 +26,7 @@ void take_dropper(UiState& ui, unsigned field) {
 
 } // namespace
 
-bool Fields::obey_color_wish(const char* label, Vec3& value, const Vec3& reset) {
+bool Fields::apply_color_action(const char* label, Vec3& value, const Vec3& reset) {
     const unsigned id = ImGui::GetItemID();
     if (ui_.values.dropper == id && ui_.values.picked) {
         const Vec3 picked = *std::exchange(ui_.values.picked, std::nullopt);
@@ -92,7 +92,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
     ui_.probe.record_last_item(path);
     tip_for_last_item(ui_, tip);
     const unsigned id = ImGui::GetItemID();
-    bool changed = obey_color_wish(label, value, reset);
+    bool changed = apply_color_action(label, value, reset);
     changed_ |= changed;
     if (ImGui::BeginPopup("picker")) {
         changed |= draw_picker(label, value);
@@ -101,8 +101,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
             ImGui::CloseCurrentPopup();
         }
         ui_.probe.record_last_item(path + "/Pick");
-        tip_for_last_item(ui_,
-                          "Pick the colour of a pixel in the picture: scene-linear, before exposure, white balance and view transform.");
+        tip_for_last_item(ui_, "Pick the colour of a pixel in the image: scene-linear, before exposure, white balance and view transform.");
         ImGui::EndPopup();
     }
     static constexpr const char* ids[] = {"##R", "##G", "##B"};
@@ -114,7 +113,7 @@ bool Fields::color(const char* label, Vec3& value, const Vec3& reset, const char
         ImGui::SetNextItemWidth(field);
         const std::string name = std::string(label) + " " + (ids[i] + 2);
         bool edited = number_field(ids[i], *components[i], style);
-        edited |= obey_wish(name, *components[i], style, resets[i], &value, true);
+        edited |= apply_value_action(name, *components[i], style, resets[i], &value, true);
         changed |= finish(name.c_str(), tip, edited);
     }
     ImGui::PopID();

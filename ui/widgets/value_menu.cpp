@@ -11,9 +11,9 @@ namespace {
 constexpr size_t max_pasted = 4096;
 
 ValueAction menu(UiState& ui, const std::string& name, bool is_color, bool has_siblings) {
-    ValueAction wish = ValueAction::none;
+    ValueAction requested = ValueAction::none;
     const auto item = [&](const char* text, ValueAction meant, const char* key = nullptr) {
-        if (ImGui::MenuItem(text, key)) wish = meant;
+        if (ImGui::MenuItem(text, key)) requested = meant;
         ui.probe.record_last_item(name + "/" + text);
     };
     const std::string copy = keys_of(shortcut(Command::copy_value)), paste = keys_of(shortcut(Command::paste_value)),
@@ -26,34 +26,34 @@ ValueAction menu(UiState& ui, const std::string& name, bool is_color, bool has_s
     if (has_siblings) item("Copy all three", ValueAction::copy_all);
     item("Paste", ValueAction::paste, paste.c_str());
     ImGui::Separator();
-    if (is_color) item("Pick from the picture", ValueAction::pick);
+    if (is_color) item("Pick from the image", ValueAction::pick);
     item("Reset to default", ValueAction::reset, reset.c_str());
-    return wish;
+    return requested;
 }
 
 } // namespace
 
-void request_value_action(UiState& ui, ValueAction wish) {
-    ui.values.wish = wish;
+void request_value_action(UiState& ui, ValueAction requested) {
+    ui.values.requested = requested;
     ui.values.action_frame = ImGui::GetFrameCount() + 1;
     ui.seconds_to_next_frame = 0;
 }
 
 ValueAction value_action(UiState& ui, const std::string& name, bool is_color, bool has_siblings) {
     const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && !ImGui::IsItemActive();
-    ValueAction wish = ValueAction::none;
+    ValueAction requested = ValueAction::none;
     if (hovered && ui.values.action_frame == ImGui::GetFrameCount()) {
-        wish = ui.values.wish;
+        requested = ui.values.requested;
         ui.values.action_frame = -1;
     }
     ImGui::PushID(name.c_str());
     if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("value");
     if (ImGui::BeginPopup("value")) {
-        if (const ValueAction chosen = menu(ui, name, is_color, has_siblings); chosen != ValueAction::none) wish = chosen;
+        if (const ValueAction chosen = menu(ui, name, is_color, has_siblings); chosen != ValueAction::none) requested = chosen;
         ImGui::EndPopup();
     }
     ImGui::PopID();
-    return wish;
+    return requested;
 }
 
 std::string pasted_text() {

@@ -8,7 +8,7 @@
 namespace blush {
 
 // Requests the action for the field under the mouse, for the next frame.
-void request_value_action(UiState& ui, ValueAction wish);
+void request_value_action(UiState& ui, ValueAction requested);
 
 // The action requested for the last item, a field with this name: by a key, or in its context menu.
 ValueAction value_action(UiState& ui, const std::string& name, bool is_color, bool has_siblings);

@@ -38,10 +38,10 @@ std::vector<uint32_t> waveform_texels(const Waveform& w) {
 }
 
 void WaveformSheet::update(const ScopesView& view) {
-    if (!view.open || view.scopes.number() == answer_) return;
-    answer_ = view.scopes.number();
-    upload(scene_, view.scopes.answer()->scene_wave);
-    upload(displayed_, view.scopes.answer()->displayed_wave);
+    if (!view.open || view.scopes.number() == result_) return;
+    result_ = view.scopes.number();
+    upload(scene_, view.scopes.output()->scene_wave);
+    upload(displayed_, view.scopes.output()->displayed_wave);
 }
 
 WaveformTextures WaveformSheet::textures() const { return {texture_id(scene_.name()), texture_id(displayed_.name())}; }

@@ -21,13 +21,13 @@ struct WaveformTextures {
 
 class WaveformSheet {
 public:
-    // Uploads the answer if it has changed. Requires a current context.
+    // Uploads the result if it has changed. Requires a current context.
     void update(const ScopesView& view);
     WaveformTextures textures() const;
 
 private:
     GlTexture scene_, displayed_;
-    uint64_t answer_ = 0; // number of the uploaded answer
+    uint64_t result_ = 0; // number of the uploaded result
 };
 
 } // namespace blush

@@ -98,7 +98,7 @@ bool Fields::finish(const char* label, const char* tip, bool changed) {
     return changed;
 }
 
-bool Fields::obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color) {
+bool Fields::apply_value_action(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color) {
     const std::string path = std::string(scope_) + "/" + name;
     switch (value_action(ui_, path, false, all != nullptr)) {
     case ValueAction::copy: copy_text(ui_, number_text(value)); return false;
@@ -151,7 +151,7 @@ bool Fields::number(const char* label, float& value, const NumberStyle& style) {
     ImGui::PushID(label);
     begin_row(label, style.tip);
     bool changed = number_field("##value", value, style);
-    changed |= obey_wish(label, value, style, style.reset, nullptr, false);
+    changed |= apply_value_action(label, value, style, style.reset, nullptr, false);
     ImGui::PopID();
     return finish(label, style.tip, changed);
 }
@@ -208,7 +208,7 @@ bool Fields::vector(const char* label, Vec3& value, const Vec3& reset, const Num
         const ImVec2 low = ImGui::GetCursorScreenPos();
         const std::string name = std::string(label) + " " + (ids[i] + 2);
         bool edited = number_field(ids[i], *components[i], style);
-        edited |= obey_wish(name, *components[i], style, resets[i], &value, false);
+        edited |= apply_value_action(name, *components[i], style, resets[i], &value, false);
         const ImVec2 high{low.x + std::max(2.f, ImGui::GetFontSize() / 7), low.y + ImGui::GetFrameHeight()};
         ImGui::GetWindowDrawList()->AddRectFilled(low, high, axis_tones[i], ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersLeft);
         changed |= finish(name.c_str(), style.tip, edited);

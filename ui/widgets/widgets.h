@@ -64,8 +64,8 @@ public:
 private:
     bool number_field(const char* id, float& value, const NumberStyle& style);
     // Clipboard actions for the number drawn last. `all`: the three numbers it belongs to; null: it is single.
-    bool obey_wish(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color);
-    bool obey_color_wish(const char* label, Vec3& value, const Vec3& reset);
+    bool apply_value_action(const std::string& name, float& value, const NumberStyle& style, float reset, Vec3* all, bool color);
+    bool apply_color_action(const char* label, Vec3& value, const Vec3& reset);
     bool draw_picker(const char* label, Vec3& value);
     bool finish(const char* label, const char* tip, bool changed);
 

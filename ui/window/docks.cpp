@@ -162,7 +162,7 @@ void draw_floating(PanelContext& c, const Instrument& i, const Layout& l) {
     const ImVec2 at = ImGui::GetWindowPos();
     c.ui.probe.record(std::string("Window/") + i.title, {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetFrameHeight()});
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) put(c, i, place_of(c, i).side);
-    tip_for_last_item(c.ui, "Double-click to dock, or drop it on a dock or at an edge of the picture.");
+    tip_for_last_item(c.ui, "Double-click to dock, or drop it on a dock or at an edge of the image.");
     draw_menu(c, i);
     guide_mark_in_title_bar(c.ui, std::string("Window guide/") + i.title, i.guide);
     follow_mouse(c, i, l);

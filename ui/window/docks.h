@@ -1,4 +1,4 @@
-// The docks of the instruments, to the right of the picture and below it, and floating windows.
+// The docks of the instruments, to the right of the image and below it, and floating windows.
 #pragma once
 
 #include "ui/instrument.h"

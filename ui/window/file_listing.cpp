@@ -56,7 +56,7 @@ Result<FolderListing> list_folder(const std::filesystem::path& folder, const Ext
     return listing;
 }
 
-std::filesystem::path meant_path(const std::string& typed, const std::filesystem::path& folder) {
+std::filesystem::path absolute_path(const std::string& typed, const std::filesystem::path& folder) {
     const std::filesystem::path home = user_folder("HOME", "");
     if (!home.empty() && (typed == "~" || typed.starts_with("~/")))
         return (home / typed.substr(std::min<size_t>(typed.size(), 2))).lexically_normal();

@@ -30,7 +30,7 @@ struct FolderListing {
 // counted.
 Result<FolderListing> list_folder(const std::filesystem::path& folder, const ExtensionFilter& filter);
 // The path that a user means: "~/x" is in the home folder, a relative path in `folder`.
-std::filesystem::path meant_path(const std::string& typed, const std::filesystem::path& folder);
+std::filesystem::path absolute_path(const std::string& typed, const std::filesystem::path& folder);
 // Tab completion of a typed path: the longest common prefix of the matching names in its folder, with a slash after a unique
 // folder. The path itself if nothing matches.
 std::string completed_path(const std::string& typed, const ExtensionFilter& filter);

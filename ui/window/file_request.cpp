@@ -5,7 +5,7 @@ namespace blush {
 const char* title_of(FileRequest::Use use) {
     using Use = FileRequest::Use;
     switch (use) {
-    case Use::open: return "Open a scene or a picture";
+    case Use::open: return "Open a scene or an image";
     case Use::import_scene: return "Import into the scene";
     case Use::environment: return "Choose an environment image";
     case Use::ies: return "Choose a photometric file";

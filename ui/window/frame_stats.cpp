@@ -48,9 +48,9 @@ Result<void> FrameStats::write(const std::filesystem::path& file) const {
     nlohmann::json late_frames = nlohmann::json::array();
     for (const auto& [when, times] : late_)
         late_frames.push_back({{"at_s", std::chrono::duration<double>(when - *first_frame_).count()},
-                               {"before_picture_ms", times.before_picture},
-                               {"picture_ms", times.picture},
-                               {"after_picture_ms", times.after_picture}});
+                               {"before_image_ms", times.before_image},
+                               {"image_ms", times.image},
+                               {"after_image_ms", times.after_image}});
     const nlohmann::json json{{"frames", frames_.size()},
                               {"unchanged_frames", unchanged_},
                               {"p50_ms", percentile(frames_, 0.5)},

@@ -1,4 +1,4 @@
-// Statistics of UI frame times, and of the latency from an edit to the picture that shows it.
+// Statistics of UI frame times, and of the latency from an edit to the image that shows it.
 #pragma once
 
 #include "core/result.h"
@@ -15,11 +15,11 @@ namespace blush {
 // The quantile `fraction` of the values (nearest rank); 0 if there are none.
 double percentile(std::vector<double> values, double fraction);
 
-// Milliseconds of one UI frame: before the picture (input and panels), drawing the rendered picture, and after it (remaining
+// Milliseconds of one UI frame: before the image (input and panels), drawing the rendered image, and after it (remaining
 // panels, drawing and swap).
 struct FrameTimes {
-    double before_picture = 0, picture = 0, after_picture = 0;
-    double total() const { return before_picture + picture + after_picture; }
+    double before_image = 0, image = 0, after_image = 0;
+    double total() const { return before_image + image + after_image; }
 };
 
 class FrameStats {
@@ -31,14 +31,14 @@ public:
     void add_frame(const FrameTimes& times, Clock::time_point when);
     // A frame that was not drawn, because the window showed it already.
     void add_unchanged_frame() { ++unchanged_; }
-    // submitted: a revision was submitted in the frame that began at this time. shown: a picture of some revision was displayed.
-    // A picture answers all revisions up to its own. A latency counts from the submission of the picture's own revision, a time to
-    // an answer from every submission: revisions that are superseded before they have a picture have no latency.
+    // submitted: a revision was submitted in the frame that began at this time. shown: an image of some revision was displayed.
+    // An image answers all revisions up to its own. A latency counts from the submission of the image's own revision, a time to
+    // an answer from every submission: revisions that are superseded before they have an image have no latency.
     void submitted(uint64_t revision, Clock::time_point when);
     void shown(uint64_t revision, Clock::time_point when);
     void end_frame() { submitted_in_frame_ = 0; }
 
-    // The view settings were changed, and later a picture with them was displayed.
+    // The view settings were changed, and later an image with them was displayed.
     void view_changed(Clock::time_point when) { view_change_begun_ = when; }
     void view_change_shown(Clock::time_point when);
 
@@ -46,8 +46,8 @@ public:
     const std::vector<double>& latencies() const { return latencies_; }
     const std::vector<double>& answers() const { return answers_; }
     const std::vector<double>& looks() const { return looks_; }
-    // {"frames": n, "unchanged_frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_picture_ms",
-    // "picture_ms", "after_picture_ms"}, ...],
+    // {"frames": n, "unchanged_frames": n, "p50_ms", "p95_ms", "max_ms", "late": n, "late_frames": [{"at_s", "before_image_ms",
+    // "image_ms", "after_image_ms"}, ...],
     //  "edits": n, "edits_at_once": n, "latency_p50_ms", "latency_p95_ms", "latency_max_ms",
     //  "submissions": n, "answer_p50_ms", "answer_p95_ms", "answer_max_ms",
     //  "looks": n, "look_p50_ms", "look_max_ms"}

@@ -1,4 +1,4 @@
-// State of ImGui that its public interface does not tell: the stack of open popups (menus, combo boxes, colour pickers, dialogs), and
+// State of ImGui that its public interface does not expose: the stack of open popups (menus, combo boxes, colour pickers, dialogs), and
 // whether it has settled.
 #pragma once
 

@@ -21,8 +21,8 @@ float right_dock_width(const Region& room, float font_size, const ViewportInsets
 
 // Subtracts docks and strip from the room.
 void divide_room(Layout& l, float bottom_edge, float font_size, const ViewportInsets& beside) {
-    const float body = bottom_edge - l.room.y, picture = std::min(min_viewport_height * font_size, std::floor(body * 0.45f));
-    float free = std::max(body - beside.time - picture, 0.f);
+    const float body = bottom_edge - l.room.y, image = std::min(min_viewport_height * font_size, std::floor(body * 0.45f));
+    float free = std::max(body - beside.time - image, 0.f);
     float dock = beside.bottom ? std::clamp(std::round(beside.docks.bottom * font_size), 0.f, std::max(free - beside.strip, 0.f)) : 0;
     if (beside.bottom) dock = std::min(std::max(dock, std::round(min_dock_height * font_size)), free);
     free -= dock;

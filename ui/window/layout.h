@@ -30,11 +30,11 @@ struct DockSizes {
     bool operator==(const DockSizes&) const = default;
 };
 
-// What reduces the space of the picture.
+// Areas around the image that reduce its space.
 struct ViewportInsets {
     bool right = false, bottom = false; // docks that have content
     DockSizes docks = {};
-    float strip = 0, time = 0; // heights below the picture, pixels; 0: hidden
+    float strip = 0, time = 0; // heights below the image, pixels; 0: hidden
 };
 
 struct Layout {

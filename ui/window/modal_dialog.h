@@ -1,4 +1,4 @@
-// Content of a modal dialog.
+// Content of a modal dialog: a question, and what the user can choose.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace blush {
 
-struct Question {
+struct ModalDialog {
     std::string text;
     std::string details;              // smaller text below; may be empty
     std::vector<std::string> choices; // Enter chooses the focused one, Esc the last

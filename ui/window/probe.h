@@ -12,12 +12,12 @@ namespace blush {
 
 // State of the window other than widgets.
 struct ProbeState {
-    Region image; // the picture's rectangle on the screen
+    Region image; // the image's rectangle on the screen
     int width = 0, height = 0;
     int64_t samples = 0;
     bool complete = false;
-    uint64_t revision = 0;   // number of edits that affect the picture
-    bool up_to_date = false; // the picture shows the latest edit
+    uint64_t revision = 0;   // number of edits that affect the image
+    bool up_to_date = false; // the image shows the latest edit
     std::string toast;       // the newest toast
     std::string shown = {};  // shown_text(): raw, denoised, ...
     // What the window has taken up of the user's input, so that a test waits for it instead of sleeping: presses and releases of keys

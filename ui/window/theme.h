@@ -1,4 +1,4 @@
-// UI theme: neutral greys, so that it does not influence the perception of the picture's colours.
+// UI theme: neutral greys, so that it does not influence the perception of the image's colours.
 #pragma once
 
 #include "core/vec.h"
@@ -21,7 +21,7 @@ ImU32 hue_of(const Vec3& linear, int alpha = 255);
 namespace tone {
 constexpr ImU32 text = IM_COL32(214, 214, 214, 255);
 constexpr ImU32 dim_text = IM_COL32(140, 140, 140, 255);
-constexpr ImU32 surround = IM_COL32(28, 28, 28, 255); // around the picture
+constexpr ImU32 surround = IM_COL32(28, 28, 28, 255); // around the image
 constexpr ImU32 field = IM_COL32(58, 58, 58, 255);
 constexpr ImU32 field_hovered = IM_COL32(68, 68, 68, 255);
 constexpr ImU32 field_filled = IM_COL32(92, 92, 92, 255); // the part of a slider below its value

@@ -17,7 +17,7 @@ void Toasts::add(Toast toast) {
     if (toasts_.size() > max_toasts) toasts_.erase(toasts_.begin());
 }
 
-void Toasts::expire(std::chrono::steady_clock::time_point now) {
+void Toasts::remove_expired(std::chrono::steady_clock::time_point now) {
     std::erase_if(toasts_, [&](const Toast& t) { return now - t.since > lifetime(t); });
 }
 

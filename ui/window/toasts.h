@@ -29,7 +29,7 @@ public:
     void add(Toast toast);
     void dismiss(size_t index) { toasts_.erase(toasts_.begin() + ptrdiff_t(index)); }
     // Removes expired toasts.
-    void expire(std::chrono::steady_clock::time_point now);
+    void remove_expired(std::chrono::steady_clock::time_point now);
     const std::vector<Toast>& all() const { return toasts_; }
     // Number of toasts ever added: the window needs a new frame when it grows.
     uint64_t added() const { return added_; }

@@ -16,7 +16,7 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("denoise.blend", ui.denoise.blend, 0.f, 1.f);
     visit("exposure.f_number", ui.triangle.f_number, 0.1f, 1000.f);
     visit("exposure.iso", ui.triangle.iso, 1.f, 1e7f);
-    visit("bounces.mode", ui.bounces.mode, BouncesView::Mode::picture, BouncesView::Mode::gains);
+    visit("bounces.mode", ui.bounces.mode, BouncesView::Mode::image, BouncesView::Mode::gains);
     visit("bounces.bounce", ui.bounces.bounce, 0, default_bounce_planes);
     visit("health.map", ui.health.map, false, true);
     visit("roulette.map", ui.roulette.map, RouletteView::Map::none, RouletteView::Map::survival);
@@ -85,7 +85,7 @@ void restore_scene_ui(const WindowSettings& settings, const std::string& file, c
     ui.selected_material = {};
     ui.turned.clear();
     ui.light_mix.unfolded.clear();
-    ui.light_mix.stays_off = false;
+    ui.light_mix.disabled_by_user = false;
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)

@@ -5,7 +5,7 @@
 // | scene, render and display settings, light mix, meters,      | the scene file (glTF, extras.blush), the   | undo                |
 // |   measured and rendered region, links, groups, mute, solo   |   recovery sidecar, every snapshot         |                     |
 // | camera pose                                                 | the same; not an undo step                 | moving, frame, look |
-// | snapshots: picture, state, samples, name, note              | layered EXR in the snapshot folder         | undo of the restore |
+// | snapshots: image, state, samples, name, note              | layered EXR in the snapshot folder         | undo of the restore |
 // | size, splitters and docks, text size, folder, recent files, | window.json                                | the same control    |
 // |   overlays, snapshot settings                               |                                            |                     |
 // | settings of panels, positions of floating windows,          | window.json, written here                  | the same control    |

@@ -8,7 +8,7 @@
 #include "ui/snapshots/snapshots_view.h"
 #include "ui/transform/transform_view.h"
 #include "ui/viewport/camera_frame.h"
-#include "ui/viewport/picture_zoom.h"
+#include "ui/viewport/image_zoom.h"
 #include "ui/views/bounces_view.h"
 #include "ui/views/convergence_view.h"
 #include "ui/views/denoise_view.h"
@@ -44,7 +44,7 @@ struct Difference;
 
 enum class InspectorTab { selection, camera, environment, render, display };
 
-// Tools: the next click or drag in the picture does this instead of navigating, once.
+// Tools: the next click or drag in the image does this instead of navigating, once.
 enum class ViewTool {
     none,
     pick_white, // click: this pixel becomes neutral white
@@ -53,7 +53,7 @@ enum class ViewTool {
     region,     // drag: render region
     meter,      // click: places a light meter on a surface
 };
-// Start of a tool's drag in the picture, (0, 0) top left, (1, 1) bottom right.
+// Start of a tool's drag in the image, (0, 0) top left, (1, 1) bottom right.
 struct ToolStart {
     double u = 0, v = 0;
 };
@@ -95,7 +95,7 @@ struct ExposureTriangle {
     float f_number = 8, iso = 100; // f_number: used while the lens is a pinhole
 };
 
-// The effect of a click in the picture on the selected light.
+// The effect of a click in the image on the selected light.
 enum class PlacingBy { hand, highlight, shadow };
 
 // The light of the light camera, and the view to return to.
@@ -112,8 +112,8 @@ struct LightTableView {
     bool just_begun = false;
 };
 
-// A point in the picture, (0, 0) top left.
-struct PicturePoint {
+// A point in the image, (0, 0) top left.
+struct ImagePosition {
     double u = 0, v = 0;
 };
 
@@ -141,8 +141,8 @@ struct UiState {
     Id<Node> renaming;
     std::string rename_text;
 
-    PictureZoom zoom;
-    std::optional<PicturePoint> cursor; // while the mouse is over the picture and no other window
+    ImageZoom zoom;
+    std::optional<ImagePosition> cursor; // while the mouse is over the image and no other window
     ViewTool tool = ViewTool::none;
     std::optional<ToolStart> tool_start; // while the tool's drag is active
     DenoiseView denoise;                 // view setting: not part of the document and its history
@@ -156,7 +156,7 @@ struct UiState {
     bool studio_banner = false;            // the file has no light and was opened with studio lighting; the banner is still shown
     bool opening_page = false;             // shown after a start without a scene
     std::vector<std::string> demos;        // scene files shipped with the program
-    bool panels_hidden = false;            // hides everything except menu, picture and status bar
+    bool panels_hidden = false;            // hides everything except menu, image and status bar
     HomeView home;                         // target of the command Camera view
     CameraFrame frame;                     // of that camera
     TransformView transform;               // of the selection, by gizmo or keys
@@ -164,18 +164,18 @@ struct UiState {
     MenuBarView menu_bar;
     LightMixView light_mix;
     BouncesView bounces;
-    AovView aov; // the pass selected in the viewport's toolbar
+    AovView aov; // the AOV selected in the viewport's toolbar
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;
     SnapshotsView snapshots;
-    std::shared_ptr<const Difference> difference; // of the compared pictures, as last computed; null: none
+    std::shared_ptr<const Difference> difference; // of the compared images, as last computed; null: none
     ScopesView scopes;
     MetersView meters;
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;
-    std::optional<Question> question; // set by the editor, which also receives the answer
+    std::optional<ModalDialog> dialog; // set by the editor, which also receives the answer
     std::optional<PixelProbe> pixel;
     EulerFields euler;
     WhiteFields white;
@@ -196,15 +196,15 @@ struct UiState {
     std::vector<Command> commands;
     std::vector<FileRequest> files;
     bool wraps_cursor = false;   // a drag without an end: the cursor that leaves the window comes back in at the opposite edge
-    bool meter_exposure = false; // once, for the picture of the last edit, because the environment has changed
+    bool meter_exposure = false; // once, for the image of the last edit, because the environment has changed
 
-    // The special view that the viewport shows instead of the picture, if a panel requests one.
-    PictureView picture_view(int bounce_planes) const {
-        if (health.open && health.map) return {PictureView::Show::dropped};
-        if (roulette.open && roulette.map == RouletteView::Map::path_length) return {PictureView::Show::path_length};
-        if (roulette.open && roulette.map == RouletteView::Map::survival) return {PictureView::Show::survival};
-        const PictureView by_panel = blush::picture_view(bounces, bounce_planes);
-        return by_panel.show == PictureView::Show::beauty ? blush::picture_view(aov, bounce_planes) : by_panel;
+    // The special view that the viewport shows instead of the image, if a panel requests one.
+    ImageView image_view(int bounce_planes) const {
+        if (health.open && health.map) return {ImageView::Show::dropped};
+        if (roulette.open && roulette.map == RouletteView::Map::path_length) return {ImageView::Show::path_length};
+        if (roulette.open && roulette.map == RouletteView::Map::survival) return {ImageView::Show::survival};
+        const ImageView by_panel = blush::image_view(bounces, bounce_planes);
+        return by_panel.show == ImageView::Show::beauty ? blush::image_view(aov, bounce_planes) : by_panel;
     }
     // Film planes that open panels need, in addition to the default ones.
     PlaneSet wanted_planes() const {

@@ -15,7 +15,7 @@ namespace blush {
 // UI state of the last session with a scene file.
 struct SceneMemory {
     std::string file;
-    double zoom = 0, u = 0.5, v = 0.5;    // PictureZoom
+    double zoom = 0, u = 0.5, v = 0.5;    // ImageZoom
     std::vector<uint32_t> selected;       // Id<Node>.value, the active one first
     uint32_t material = 0;                // Id<Material>.value of the selected material
     std::vector<uint32_t> turned;         // Id<Node>.value of the outliner rows whose fold state differs from the default

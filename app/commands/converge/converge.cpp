@@ -6,7 +6,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/load_scene.h"
 #include "app/commands/progress.h"
-#include "app/commands/render/picture.h"
+#include "app/commands/render/write_image.h"
 #include "core/files.h"
 #include "core/text.h"
 
@@ -38,7 +38,7 @@ struct Plan {
 Result<Plan> plan_of(const ConvergeCommand& c) {
     RenderOptions options = c.options;
     if (options.samples_given) return Error{.what = "converge takes --spp or --time, not --samples"};
-    if (options.denoise) return Error{.what = "converge measures raw pictures: --denoise is not allowed"};
+    if (options.denoise) return Error{.what = "converge measures raw images: --denoise is not allowed"};
     if (options.settings.error > 0) return Error{.what = "converge takes --spp or --time, not --error"};
     if (!options.spp_given && options.settings.seconds == 0) options.settings.seconds = 10;
     Plan plan;
@@ -111,7 +111,7 @@ Result<void> write_report(const ConvergeCommand& c, const ConvergeReport& report
     const std::filesystem::path folder = c.folder;
     if (const Result<void> written = write_file(folder / "convergence.csv", converge_csv(report)); !written) return written;
     if (const Result<void> written = write_json((folder / "convergence.json").string(), json); !written) return written;
-    const Result<std::optional<ColorManagement>> color = color_for(PictureFormat::display, c.options.view);
+    const Result<std::optional<ColorManagement>> color = color_for(ImageFormat::display, c.options.view);
     if (!color) return color.error();
     const Result<std::string> html = converge_html(report, **color, c.options.view);
     if (!html) return html.error();
@@ -134,7 +134,7 @@ void print_summary(const ConvergeCommand& c, const ConvergeReport& report) {
 int run_converge_command(const ConvergeCommand& c) {
     Result<Plan> plan = plan_of(c);
     if (!plan) return bad_usage(plan.error().text());
-    if (const auto color = color_for(PictureFormat::display, c.options.view); !color) return failed(color.error());
+    if (const auto color = color_for(ImageFormat::display, c.options.view); !color) return failed(color.error());
     std::error_code code;
     std::filesystem::create_directories(c.folder, code);
     if (code || !std::filesystem::is_directory(c.folder, code))

@@ -114,7 +114,7 @@ std::string bias_cell(const VariantResult& v) {
                                                  p.percent(), 1.96 * p.percent_error(), signed_number(p.z(), 1));
     std::string bounces = bias_by_bounce_text(v);
     if (!bounces.empty()) bounces = fmt::format("<small>{}</small>", bounces);
-    return fmt::format("<td{}>{}<small>whole picture {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>", b.biased ? " class='biased'" : "",
+    return fmt::format("<td{}>{}<small>whole image {:+.3g} % ± {:.2g}, z {}</small>{}{}{}</td>", b.biased ? " class='biased'" : "",
                        b.verdict(), b.whole.percent(), 1.96 * b.whole.percent_error(), signed_number(b.whole.z(), 1), pooled, region,
                        bounces);
 }
@@ -159,9 +159,9 @@ std::string how_to_read(const ConvergeReport& report) {
         "clearly better.</p>\n",
         report.input.repeats);
     html += fmt::format(
-        "<p>The bias test compares the means of the whole picture and of a grid of regions with the reference, in units of the standard "
+        "<p>The bias test compares the means of the whole image and of a grid of regions with the reference, in units of the standard "
         "error of the "
-        "difference. Its false positive rate over all regions of a variant is {:g} % (Šidák correction). A picture is "
+        "difference. Its false positive rate over all regions of a variant is {:g} % (Šidák correction). An image is "
         "not called biased "
         "if its missing light can be explained by rare bright samples, as bright as the brightest it has found. The bias per bounce of a "
         "biased "
@@ -211,11 +211,11 @@ Result<std::string> converge_html(const ConvergeReport& report, const ColorManag
     html += to_svg(error_plot(report, "Error against time", "seconds of rendering", [](const MeasuredPoint& p) { return p.seconds; }));
     html += to_svg(error_plot(report, "Error against samples", "samples per pixel", [](const MeasuredPoint& p) { return double(p.spp); }));
     html += "</div>\n<h2>At the end of the last repeat</h2>\n" + table(report) + "<h2>How to read this</h2>\n" + how_to_read(report) +
-            "<h2>Pictures</h2>\n<div class='row'>\n";
+            "<h2>Images</h2>\n<div class='row'>\n";
     for (const VariantResult& v : report.result.variants) {
-        if (v.picture.samples == 0) continue;
+        if (v.mean.samples == 0) continue;
         const Result<std::string> shown =
-            figure(v.picture.image, fmt::format("{}, all repeats, {} spp", v.variant.name, v.picture.samples), color, view);
+            figure(v.mean.image, fmt::format("{}, all repeats, {} spp", v.variant.name, v.mean.samples), color, view);
         if (!shown) return shown.error();
         html += *shown;
     }

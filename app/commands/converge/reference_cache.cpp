@@ -136,7 +136,7 @@ Result<Reference> read_reference_file(const std::filesystem::path& file, int wid
     if (image->width != width || image->height != height)
         return Error{
             .file = file.string(),
-            .what = fmt::format("the reference has {}x{} pixels, but the pictures have {}x{}", image->width, image->height, width, height)};
+            .what = fmt::format("the reference has {}x{} pixels, but the images have {}x{}", image->width, image->height, width, height)};
     if (!all_finite(r.measured.image.pixels) || !all_finite(r.measured.error))
         return Error{.file = file.string(), .what = "the reference has non-finite values"};
     return r;

@@ -35,7 +35,7 @@ std::string converge_csv(const ConvergeReport& report);
 // percent_error, significant}]}. Unknown values are null.
 OrderedJson converge_json(const ConvergeReport& report);
 
-// Pictures are converted by the view transform. Errors: unknown view.
+// Images are converted by the view transform. Errors: unknown view.
 Result<std::string> converge_html(const ConvergeReport& report, const ColorManagement& color, const ViewSettings& view);
 
 } // namespace blush

@@ -94,7 +94,7 @@ void conclude(VariantResult& v, const MeasuredImage& reference) {
     v.over_seconds = fit(v.points, [](const MeasuredPoint& p) { return p.seconds; });
     v.over_spp = fit(v.points, [](const MeasuredPoint& p) { return double(p.spp); });
     v.efficiency = efficiency_of(v.points);
-    v.bias = test_bias(v.picture, reference);
+    v.bias = test_bias(v.mean, reference);
 }
 
 // Renders once more at a low resolution, with the same random numbers but without roulette and limit: the difference per bounce
@@ -145,8 +145,7 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
                 result.variants[size_t(turn)].points.push_back(measured_point(runner, repeat, reference, reference_mse));
         }
         for (size_t v = 0; v < runners.size(); ++v)
-            if (runners[v].samples >= 2)
-                result.variants[v].picture = merged(result.variants[v].picture, measured_image(*runners[v].renderer));
+            if (runners[v].samples >= 2) result.variants[v].mean = merged(result.variants[v].mean, measured_image(*runners[v].renderer));
     }
     result.partial = interrupted;
     for (VariantResult& v : result.variants) {

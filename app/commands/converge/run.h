@@ -28,7 +28,7 @@ struct MeasuredPoint {
 struct VariantResult {
     Variant variant;
     std::vector<MeasuredPoint> points;
-    MeasuredImage picture;           // mean of all repeats
+    MeasuredImage mean;              // of all repeats
     PowerFit over_seconds, over_spp; // fits of RMSE; only of points whose reference is clearly better
     Interval efficiency;             // 1 / (MSE x seconds), from the last points of the repeats
     BiasTest bias;
@@ -41,7 +41,7 @@ struct ConvergeInput {
     std::vector<Variant> variants;
     int repeats = 1;
     double seconds = 0; // render time of each variant in each repeat; 0: no limit
-    int64_t spp = 0;    // samples per pixel, likewise
+    int64_t spp = 0;    // samples per pixel of each variant in each repeat; 0: no limit
     uint32_t seed = 0;  // of the first repeat; the next repeats use the following seeds
     unsigned threads = 0;
     bool whole_paths = true; // the reference has no limit on bounces

@@ -136,7 +136,7 @@ std::string film_json(const FilmState& film) {
 }
 
 Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata) {
-    if (metadata.film.empty()) return Error{"", "the picture was saved without the samples: it cannot be resumed", ""};
+    if (metadata.film.empty()) return Error{"", "the image was saved without the samples: it cannot be resumed", ""};
     const Result<Json> json = parse_json_object(metadata.film);
     if (!json) return Error{"", json.error().what, "blush:film"};
     const auto bad = [](const char* key) { return Error{"", "invalid film state", fmt::format("blush:film {}", key)}; };

@@ -15,7 +15,7 @@ namespace blush {
 std::vector<LosslessPlane> planes_in_file(const FilmState& film);
 std::string film_json(const FilmState& film);
 
-// Restores the film of a picture. Errors: saved without film, damaged text, invalid numbers.
+// Restores the film of an image. Errors: saved without film, damaged text, invalid numbers.
 Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata);
 
 } // namespace blush

@@ -1,4 +1,4 @@
-// Passes that a render writes beside the beauty: `--layers albedo,normal,...`. `bounces=N` is the number of bounce planes, the
+// Layers that a render writes beside the beauty: `--layers albedo,normal,...`. `bounces=N` is the number of bounce planes, the
 // last of which contains all further bounces.
 #pragma once
 

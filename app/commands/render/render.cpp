@@ -9,16 +9,16 @@
 #include "app/commands/render/command_feature_report.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/frame_json.h"
-#include "app/commands/render/picture.h"
 #include "app/commands/render/render_loop.h"
 #include "app/commands/render/render_options.h"
 #include "app/commands/render/resume_image.h"
+#include "app/commands/render/write_image.h"
 #include "app/common/assets_dir.h"
 #include "core/text.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
 #include "render/film/coverage.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ struct Plan {
     RenderSettings settings;
     Layers layers;
     std::optional<PixelRequest> pixel;
-    PictureFormat format = PictureFormat::exr;
+    ImageFormat format = ImageFormat::exr;
     std::optional<ResumeImage> begun; // --continue
 };
 
@@ -93,19 +93,19 @@ Result<Plan> plan_of(const RenderCommand& c) {
         return plan;
     }
     if (c.output.empty()) return Error{.what = "render needs -o OUT.exr, OUT.png or OUT.jpg"};
-    const Result<PictureFormat> format = picture_format(c.output);
+    const Result<ImageFormat> format = image_format(c.output);
     if (!format) return format.error();
     plan.format = *format;
     if (const std::string extension = lower_extension(c.output); extension == ".jpg" || extension == ".jpeg")
         if (const Result<void> fits = expect_jpeg_size(c.output, plan.settings.width, plan.settings.height); !fits) return fits.error();
-    if (plan.layers.any() && plan.format != PictureFormat::exr) return Error{.what = "--layers needs an .exr output"};
+    if (plan.layers.any() && plan.format != ImageFormat::exr) return Error{.what = "--layers needs an .exr output"};
     return plan;
 }
 
 bool is_warning(const Diagnostic& d) { return d.severity == Diagnostic::Severity::warning; }
 
 // True if no camera ray hits a surface. Bounce or shadow rays prove hits; otherwise, for example for purely emissive surfaces, a
-// small depth picture decides.
+// small depth image decides.
 bool sees_nothing(const Scene& scene, const RenderSettings& settings, const RayCounts& rays, unsigned threads) {
     if (rays.bounce > 0 || rays.shadow > 0) return false;
     RenderSettings small;
@@ -219,26 +219,26 @@ PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
     return planes;
 }
 
-Result<void> write_picture(const RenderCommand& c, const Plan& plan, const Rendered& rendered, const SnapshotMetadata& metadata,
-                           const ColorManagement* color) {
+Result<void> write_image(const RenderCommand& c, const Plan& plan, const Rendered& rendered, const SnapshotMetadata& metadata,
+                         const ColorManagement* color) {
     const Frame& frame = rendered.loop.frame;
     ExtraLayers extra{.error = rendered.error};
     if (rendered.denoised) extra.denoised = rendered.denoised->rgb;
     const std::vector<LosslessPlane> film = rendered.film ? planes_in_file(*rendered.film) : std::vector<LosslessPlane>();
     extra.film = film;
     if (!color) {
-        const Result<int64_t> written = write_exr_picture(c.output, frame, extra, plan.layers, metadata);
+        const Result<int64_t> written = write_exr_image(c.output, frame, extra, plan.layers, metadata);
         return written ? Result<void>() : written.error();
     }
     std::vector<float> rgb = rendered.denoised ? rendered.denoised->rgb : beauty_rgb(frame);
     const std::vector<float> coverage = coverage_of(frame);
-    return write_display_picture(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
-                                 {frame.albedo, coverage}, opacity_of(frame));
+    return write_through_view(c.output, frame.width, frame.height, std::move(rgb), *color, c.options.view, display_metadata(metadata),
+                              {frame.albedo, coverage}, opacity_of(frame));
 }
 
 // Renders, denoises if requested, and writes the output. The raw render is written even if denoising fails.
-Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
-                                Denoiser& denoiser, const std::atomic<bool>& interrupted) {
+Result<Rendered> render_image(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
+                              Denoiser& denoiser, const std::atomic<bool>& interrupted) {
     Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan)});
     renderer.update(loaded.scene, plan.settings);
     LoopProgress begin;
@@ -262,7 +262,7 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
     if (rendered.loop.samples == 0) return Error{.file = c.scene, .what = "interrupted before the first sample"};
     if (sees_nothing(loaded.scene, plan.settings, rendered.loop.frame.rays, c.common.threads)) {
         const Diagnostic nothing{Diagnostic::Severity::warning,
-                                 "the camera sees no object of the scene: the picture shows only the background", ""};
+                                 "the camera sees no object of the scene: the image shows only the background", ""};
         if (!c.common.quiet) print_warnings(c.scene, {nothing});
         rendered.warnings.push_back(nothing);
     }
@@ -274,7 +274,7 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         Result<std::vector<Denoised>> result =
             denoise_with_progress(denoiser, denoise_inputs(frame), *c.options.denoise, c.common.quiet, interrupted ? never : interrupted);
         if (result)
-            rendered.denoised = denoised_picture(frame, *c.options.denoise, *std::move(result))->denoised;
+            rendered.denoised = denoised_image(frame, *c.options.denoise, *std::move(result))->denoised;
         else
             denoised = result.error();
     }
@@ -285,14 +285,14 @@ Result<Rendered> render_picture(const RenderCommand& c, const Plan& plan, const 
         film->seconds = rendered.loop.seconds;
         rendered.film = *std::move(film);
     }
-    const Result<void> written = write_picture(c, plan, rendered, metadata_of(c, plan, loaded, rendered), color);
+    const Result<void> written = write_image(c, plan, rendered, metadata_of(c, plan, loaded, rendered), color);
     if (!written) return in_file(written.error(), c.output);
     if (!denoised) return Error{c.output, "written without denoising because of an error: " + denoised.error().text(), ""};
     return rendered;
 }
 
 // Settings come from the image, stop rules from the command line.
-Result<void> go_on_with(const std::string& file, Plan& plan) {
+Result<void> resume_from(const std::string& file, Plan& plan) {
     Result<ResumeImage> begun = read_resume_image(file);
     if (!begun) return begun.error();
     const RenderSettings stop = std::exchange(plan.settings, begun->metadata.settings);
@@ -326,10 +326,10 @@ int run_render(RenderCommand c) {
     Result<Plan> plan = plan_of(c);
     if (!plan) return bad_usage(plan.error().text());
     if (!c.begun.empty())
-        if (const Result<void> begun = go_on_with(c.begun, *plan); !begun) return failed(begun.error());
+        if (const Result<void> begun = resume_from(c.begun, *plan); !begun) return failed(begun.error());
     if (!plan->pixel)
         if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
-    const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? PictureFormat::exr : plan->format, c.options.view);
+    const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? ImageFormat::exr : plan->format, c.options.view);
     if (!color) return failed(color.error());
     Denoiser denoiser(weights_dir(), c.common.threads);
     if (c.options.denoise && !plan->pixel)
@@ -353,7 +353,7 @@ int run_render(RenderCommand c) {
         fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
         return exit_done;
     }
-    const Result<Rendered> rendered = render_picture(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
+    const Result<Rendered> rendered = render_image(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
     if (!rendered) return failed(rendered.error());
     if (const Result<void> written = write_json(c.common.json, result_json(c, plan->settings, *rendered)); !written)
         return failed(written.error());
@@ -372,7 +372,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     add_render_options(*sub, command->options);
     sub->add_option(
            "--layers", command->layers,
-           "Additional passes, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
+           "Additional layers, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");

@@ -89,7 +89,7 @@ Result<std::optional<DenoiseQuality>> parse_denoise(std::string_view text) {
     return std::optional(*quality);
 }
 
-void add_picture_options(CLI::App& app, RenderOptions& o) {
+void add_image_options(CLI::App& app, RenderOptions& o) {
     app.add_option_function<std::string>(
            "--size",
            [&o](const std::string& text) {
@@ -104,7 +104,7 @@ void add_picture_options(CLI::App& app, RenderOptions& o) {
            },
            "Size in pixels; for Wx or xH the other side follows the camera's aspect ratio [1280 wide]")
         ->type_name("WxH");
-    add_parsed(app, "--region", o.region, parse_region, "Render only these pixels; the rest of the picture stays empty [all]")
+    add_parsed(app, "--region", o.region, parse_region, "Render only these pixels; the rest of the image stays empty [all]")
         ->type_name("X,Y,W,H");
     app.add_option("--camera", o.overrides.camera, "Camera [the first; in a scene without cameras, one is framed around the scene]")
         ->type_name("NAME|INDEX");
@@ -215,14 +215,14 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
 }
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
-    add_picture_options(app, options);
+    add_image_options(app, options);
     add_scene_selection_options(app, options.overrides.scene_selection);
     add_light_options(app, options);
     add_stop_options(app, options);
     add_integrator_options(app, options);
     add_view_options(app, options.view);
     add_parsed(app, "--denoise", options.denoise, parse_denoise,
-               "Denoise the result: an additional layer \"denoised\" in an EXR; a PNG or JPEG shows the denoised picture [off]")
+               "Denoise the result: an additional layer \"denoised\" in an EXR; a PNG or JPEG shows the denoised image [off]")
         ->type_name("off|fast|high");
 }
 
@@ -246,10 +246,10 @@ Result<RenderSettings> settings_of(const RenderOptions& options) {
     if (const auto& r = options.region) {
         const float w = float(settings.width), h = float(settings.height);
         if (r->x1 > settings.width || r->y1 > settings.height)
-            return Error{.what = fmt::format("--region is outside of the picture of {}x{}", settings.width, settings.height)};
+            return Error{.what = fmt::format("--region is outside of the image of {}x{}", settings.width, settings.height)};
         settings.region = {float(r->x0) / w, float(r->y0) / h, float(r->x1 - r->x0) / w, float(r->y1 - r->y0) / h};
         if (options.adaptive_given && settings.adaptive)
-            return Error{.what = "--adaptive and --region exclude each other: adaptive sampling needs the whole picture"};
+            return Error{.what = "--adaptive and --region exclude each other: adaptive sampling needs the whole image"};
         settings = effective_settings(settings);
     }
     const bool other_limit = settings.seconds > 0 || settings.error > 0;

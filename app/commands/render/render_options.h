@@ -20,7 +20,7 @@ struct RenderOptions {
     ViewSettings view;
     SceneOverrides overrides;
     std::optional<DenoiseQuality> denoise;          // empty: off
-    std::optional<PixelRect> region;                // of a picture of the requested size; empty: all of it
+    std::optional<PixelRect> region;                // of an image of the requested size; empty: all of it
     bool width_given = false, height_given = false; // by --size; a missing side follows the camera's aspect ratio
     bool size_given = false, spp_given = false, samples_given = false, adaptive_given = false, reuse_given = false;
 };

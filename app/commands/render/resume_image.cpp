@@ -23,7 +23,7 @@ Result<LoadedScene> scene_at_save(LoadedScene loaded, const std::string& scene_f
     const SnapshotMetadata& m = begun.metadata;
     if (scene_hash(loaded.imported) != m.scene_hash)
         return Error{file, fmt::format("was rendered from another scene than {}, or from an older version of it", scene_file), ""};
-    if (count_left_out(m.edits) > 0) return Error{file, "its scene had edits that are not stored in the picture", "blush:edits left_out"};
+    if (count_left_out(m.edits) > 0) return Error{file, "its scene had edits that are not stored in the image", "blush:edits left_out"};
     if (m.edits.empty()) return loaded;
     Result<Scene> edited = apply_edits_json(loaded.imported, m.edits);
     if (!edited) return in_file(edited.error(), file);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "scene/picture_region.h"
+#include "scene/image_region.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -36,7 +36,7 @@ struct ImageInfo {
     int width = 0, height = 0, channels = 0;
     bool is_float = false; // more than 8 bits per channel
 
-    // Size of the decoded Image after so many halvings of its sides.
+    // Size of the decoded Image after its sides are halved this many times.
     int64_t bytes(int halvings = 0) const;
 };
 // Reads the header only. Errors as in read_image.

@@ -195,10 +195,10 @@ Result<void> write_display_image(const std::filesystem::path& file, int width, i
 }
 
 Result<std::vector<uint8_t>> encode_png(int width, int height, std::span<const float> rgb) {
-    return guarded("picture.png", [&]() -> Result<std::vector<uint8_t>> {
+    return guarded("image.png", [&]() -> Result<std::vector<uint8_t>> {
         if (!is_rgb_of(rgb, width, height)) return Error{"", "an image without pixels or of the wrong size cannot be encoded", ""};
         const std::vector<uint8_t> bytes = display_bytes(rgb);
-        return encode("picture.png", "png", png_spec(width, height), OIIO::TypeDesc::UINT8, bytes.data());
+        return encode("image.png", "png", png_spec(width, height), OIIO::TypeDesc::UINT8, bytes.data());
     });
 }
 

@@ -1,4 +1,4 @@
-// A JPEG decoded at an eighth of its size, for a first picture: several times faster than at full size.
+// A JPEG decoded at an eighth of its size, for a first image: several times faster than at full size.
 #pragma once
 
 #include "core/result.h"

@@ -86,7 +86,7 @@ TimeLeft time_left(const ConvergenceRecord& record, ConvergencePoint::Kind kind,
 
 // ---- fair comparison of several settings, rendered alternately
 
-// Index of the next variant to render: the one with the shortest time so far, so that machine load affects all alike. `seconds`:
+// Index of the next variant to render: the one with the shortest time so far, so that machine load affects all equally. `seconds`:
 // time so far, -1 for finished variants. Returns -1 if all are finished.
 int next_variant(const std::vector<double>& seconds);
 

@@ -34,7 +34,7 @@ size_t ConvergenceRuns::free_color() const {
 }
 
 // "name", "name 2", "name 3", ...
-std::string ConvergenceRuns::free_name(const std::string& name, int but_of) const {
+std::string ConvergenceRuns::unique_name(const std::string& name, int but_of) const {
     std::string candidate = name;
     const auto taken = [&](const ConvergenceRun& r) { return r.id != but_of && r.record.name == candidate; };
     for (int number = 2; std::ranges::any_of(runs_, taken); ++number) candidate = fmt::format("{} {}", name, number);
@@ -43,7 +43,7 @@ std::string ConvergenceRuns::free_name(const std::string& name, int but_of) cons
 
 ConvergenceRun& ConvergenceRuns::add(Origin origin, ConvergenceRecord record) {
     const size_t color = free_color();
-    record.name = free_name(record.name);
+    record.name = unique_name(record.name);
     const auto behind = origin == Origin::stored ? runs_.end() : std::ranges::find(runs_, Origin::stored, &ConvergenceRun::origin);
     return *runs_.insert(behind, {++last_id_, origin, std::move(record), true, false, color});
 }
@@ -74,7 +74,7 @@ void ConvergenceRuns::mark(const std::string& label) {
 void ConvergenceRuns::add_stored(ConvergenceRecord record) { add(Origin::stored, std::move(record)); }
 
 void ConvergenceRuns::rename(int id, const std::string& name) {
-    if (ConvergenceRun* run = find(id); run && !name.empty()) run->record.name = free_name(name, id);
+    if (ConvergenceRun* run = find(id); run && !name.empty()) run->record.name = unique_name(name, id);
 }
 
 void ConvergenceRuns::remove(int id) {

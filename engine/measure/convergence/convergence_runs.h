@@ -44,7 +44,7 @@ public:
 private:
     ConvergenceRun& add(ConvergenceRun::Origin origin, ConvergenceRecord record);
     size_t free_color() const;
-    std::string free_name(const std::string& name, int but_of = 0) const;
+    std::string unique_name(const std::string& name, int but_of = 0) const;
 
     std::vector<ConvergenceRun> runs_;
     int last_id_ = 0;

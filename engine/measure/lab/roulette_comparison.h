@@ -40,7 +40,7 @@ struct RouletteReport {
 };
 
 // Renders in rounds: each side once per round with the same seed, in alternating order, and a new seed per round. Noise and
-// machine load affect both alike, and common parts cancel in the differences. Holds its own compiled scene, so that it can run in
+// machine load affect both equally, and common parts cancel in the differences. Holds its own compiled scene, so that it can run in
 // parallel with other renders.
 class RouletteComparison {
 public:

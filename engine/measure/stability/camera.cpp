@@ -42,11 +42,11 @@ Findings shape(int width, int height) {
     sun.intensity = 3;
     place_light(scene, sun, aimed({0, 0, 0}, {0, -1, 0}));
     scene.view = looking_down(1, 1);
-    const Picture picture = render(scene, settings_for(width, height, 1));
+    const RenderedImage image = render(scene, settings_for(width, height, 1));
     const double expected = double(0.8f) * 3 / std::numbers::pi;
     Findings ends;
-    for (const int x : {0, width / 2, width - 1}) ends.push_back({expected, picture.at(x, height - 1).x, 0, 0, fmt::format("pixel {}", x)});
-    const auto wrong = std::count_if(picture.pixels.begin(), picture.pixels.end(),
+    for (const int x : {0, width / 2, width - 1}) ends.push_back({expected, image.at(x, height - 1).x, 0, 0, fmt::format("pixel {}", x)});
+    const auto wrong = std::count_if(image.pixels.begin(), image.pixels.end(),
                                      [&](const Vec3d& p) { return !(std::abs(p.x - expected) <= float_rounding * expected); });
     ends.push_back(count_of(double(wrong), "pixels that differ"));
     return ends;
@@ -59,11 +59,11 @@ Findings lens(float aperture) {
     scene.view = looking({0, 0, 0}, {0, 1, 0}, 0.2f);
     scene.view.lens.aperture_radius = aperture;
     scene.view.lens.focus_distance = 4;
-    const Picture picture = render(scene, settings_for(16, 16, 64));
+    const RenderedImage image = render(scene, settings_for(16, 16, 64));
     Findings halves;
     // The edge is between rows 8 and 9: rounding may move a sample across it.
-    halves.push_back(compare(picture.region(0, 0, 16, 7), 1));
-    halves.push_back(compare(picture.region(0, 9, 16, 7), 0));
+    halves.push_back(compare(image.region(0, 0, 16, 7), 1));
+    halves.push_back(compare(image.region(0, 9, 16, 7), 0));
     return halves;
 }
 

@@ -65,7 +65,7 @@ Findings late_samples(int64_t first) {
 // The same samples on two threads, rendered in pieces.
 Findings threads_and_pieces() {
     const RenderSettings settings = settings_for(64, 64, 12);
-    const Picture one = render(room(1), settings);
+    const RenderedImage one = render(room(1), settings);
     Renderer renderer({.threads = 2, .planes = {}});
     renderer.update(room(1), settings);
     for (const auto& [first, count] : {std::pair{0, 1}, {1, 5}, {6, 6}}) renderer.render(first, count);

@@ -7,13 +7,12 @@ namespace blush::stability {
 
 Finding compare(const Measured& seen, double expected, double rounding) { return {expected, seen.mean.x, seen.error.x, rounding, {}}; }
 
-Findings whole(const Picture& picture, double expected, double rounding) { return {compare(picture.whole(), expected, rounding)}; }
+Findings whole(const RenderedImage& image, double expected, double rounding) { return {compare(image.whole(), expected, rounding)}; }
 
-Findings every_pixel(const Picture& picture, double expected, double rounding) {
+Findings every_pixel(const RenderedImage& image, double expected, double rounding) {
     Findings all;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x)
-            all.push_back({expected, picture.at(x, y).x, 0, rounding, fmt::format("pixel {},{}", x, y)});
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) all.push_back({expected, image.at(x, y).x, 0, rounding, fmt::format("pixel {},{}", x, y)});
     return all;
 }
 
@@ -26,7 +25,7 @@ Findings quarters(const Scene& scene, const FloorIrradiance& irradiance, const R
     return all;
 }
 
-Findings same_blocks(const Picture& a, const Picture& b, int block) {
+Findings same_blocks(const RenderedImage& a, const RenderedImage& b, int block) {
     const std::vector<Measured> first = a.blocks(block, block), second = b.blocks(block, block);
     Findings all;
     for (size_t i = 0; i < first.size(); ++i) {

@@ -13,13 +13,13 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
 // For a floor it covers: the right half of an image from above shows texels of 1.
-ImagePtr one_bad(float bad) { return float_picture(2, 2, std::vector<Vec3>{{bad, bad, bad}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}); }
+ImagePtr one_bad(float bad) { return float_image(2, 2, std::vector<Vec3>{{bad, bad, bad}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}); }
 
 Findings sound(const Scene& scene, double expected) {
-    const Picture picture = render(scene, settings_for(16, 16, 16));
-    Findings all{compare(picture.region(8, 8, 8, 8), expected)};
+    const RenderedImage image = render(scene, settings_for(16, 16, 16));
+    Findings all{compare(image.region(8, 8, 8, 8), expected)};
     int broken = 0;
-    for (const Vec3d& p : picture.pixels) broken += !(p.x >= 0 && p.x < 1e30);
+    for (const Vec3d& p : image.pixels) broken += !(p.x >= 0 && p.x < 1e30);
     all.push_back(count_of(broken, "pixels that are no radiance"));
     return all;
 }
@@ -48,7 +48,7 @@ Findings bad_world(float bad) {
     std::vector<Vec3> texels(64 * 32, Vec3{1, 1, 1});
     texels[64 * 31 + 7] = {bad, bad, bad};
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_picture(64, 32, texels);
+    scene.environment.image = float_image(64, 32, texels);
     scene.view = looking_down(1, 1);
     return sound(scene, 0.5);
 }

@@ -27,10 +27,10 @@ std::array<FloorQuarter, 4> photograph_floor(Scene scene, const FloorIrradiance&
     constexpr float albedo = 0.6f;
     place(scene, floor_quad(50), lambert(albedo));
     scene.view = looking_down(1, 0.1f);
-    const Picture picture = render(scene, settings);
+    const RenderedImage image = render(scene, settings);
 
     const int half = settings.width / 2;
-    const std::vector<Measured> seen = picture.blocks(half, half);
+    const std::vector<Measured> seen = image.blocks(half, half);
     std::array<FloorQuarter, 4> quarters;
     for (int quarter = 0; quarter < 4; ++quarter) {
         const int steps = 8 * half;

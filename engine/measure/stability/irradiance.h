@@ -1,7 +1,7 @@
 // Irradiance in closed form, and its comparison with an image of a diffuse floor.
 #pragma once
 
-#include "measure/stability/picture.h"
+#include "measure/stability/rendered_image.h"
 #include "measure/stability/scenes.h"
 
 #include <array>

@@ -77,11 +77,11 @@ Findings terminator() {
     scene.view = looking({0, 0, 4}, {0, 0, 0}, 1);
     scene.view.lens.orthographic = true;
     scene.view.lens.ymag = 0.7f;
-    const Picture picture = render(scene, settings_for(64, 64, 4), {.normal = true});
+    const RenderedImage image = render(scene, settings_for(64, 64, 4), {.normal = true});
     const Vec3d to_sun = normalize(to_double(direction)) * -1.0;
     double expected = 0;
-    for (const Vec3& n : picture.frame.normal) expected += std::max(0.0, dot(to_double(n), to_sun));
-    return whole(picture, expected / double(picture.frame.normal.size()));
+    for (const Vec3& n : image.frame.normal) expected += std::max(0.0, dot(to_double(n), to_sun));
+    return whole(image, expected / double(image.frame.normal.size()));
 }
 
 // Two coincident lights: NEE sees both, a ray hits only one. The correct result is undefined.
@@ -111,8 +111,8 @@ Findings closed_ball(float scale) {
     Scene scene;
     place(scene, sphere(true), emitter(1, 0.5f), at({0, 0, 0}, scale));
     scene.view = looking({0, 0, 0}, {0.9f, 0.35f, -0.8f}, 1.2f);
-    const Picture picture = render_anything(scene, settings_for(16, 16, 4));
-    return {compare(picture.whole(), 2), count_of(double(picture.frame.health.dropped()), "samples dropped")};
+    const RenderedImage image = render_anything(scene, settings_for(16, 16, 4));
+    return {compare(image.whole(), 2), count_of(double(image.frame.health.dropped()), "samples dropped")};
 }
 
 // A camera 0.3 m from the nearest single precision position.

@@ -75,7 +75,7 @@ Findings light_in_a_mirror(double alpha, Strategy strategy) {
     scene.view = looking({0, 0.5f, 0}, {0, 0, 0}, 0.01f);
     RenderSettings settings = settings_for(32, 32, 256);
     settings.strategy = strategy;
-    const Picture blurred = render(scene, settings);
+    const RenderedImage blurred = render(scene, settings);
     // Its image in a perfect mirror: a square of 1 mm, 1.5 m away.
     const double edge = 2 * std::tan(double(scene.view.lens.yfov_radians) / 2) * 1.5;
     return whole(blurred, 1e6 * 1e-6 / (edge * edge), 4 * alpha * alpha);

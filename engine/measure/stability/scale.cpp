@@ -39,24 +39,24 @@ Scene still_life(float scale, const Vec3& away) {
 
 constexpr int side = 48, block = 12;
 
-Picture still_life_picture(float scale, const Vec3& away, uint32_t seed) {
+RenderedImage still_life_image(float scale, const Vec3& away, uint32_t seed) {
     RenderSettings settings = settings_for(side, side, 64);
     settings.seed = seed;
     return render(still_life(scale, away), settings);
 }
-const Picture& original() {
-    static const Picture picture = still_life_picture(1, {0, 0, 0}, 0);
-    return picture;
+const RenderedImage& original() {
+    static const RenderedImage image = still_life_image(1, {0, 0, 0}, 0);
+    return image;
 }
 
 // If all numbers round identically, images must be bit-identical.
 Findings same_bits(float scale, const Vec3& away) {
-    const Picture other = still_life_picture(scale, away, 0);
+    const RenderedImage other = still_life_image(scale, away, 0);
     int differ = 0;
     for (size_t i = 0; i < other.pixels.size(); ++i) differ += other.pixels[i] != original().pixels[i];
     return {count_of(differ, "pixels that differ")};
 }
-Findings same_picture(float scale, const Vec3& away) { return same_blocks(original(), still_life_picture(scale, away, 1), block); }
+Findings same_render(float scale, const Vec3& away) { return same_blocks(original(), still_life_image(scale, away, 1), block); }
 
 // A ball under a parallel sun: each pixel has exactly the cosine term or is in shadow.
 Findings sunlit_ball(float scale, const Vec3& centre) {
@@ -72,15 +72,15 @@ Findings sunlit_ball(float scale, const Vec3& centre) {
     scene.view.position = centre + Vec3{0, 0, 4 * scale};
     scene.view.lens.orthographic = true;
     scene.view.lens.ymag = scale;
-    const Picture picture = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
+    const RenderedImage image = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
     const Vec3d to_sun = normalize(to_double(direction)) * -1.0;
     int wrong = 0, lit = 0;
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-        if (picture.frame.depth[i] == 0) continue;
-        const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        if (image.frame.depth[i] == 0) continue;
+        const double cos = dot(to_double(image.frame.normal[i]), to_sun);
         if (std::abs(cos) < 1e-4) continue; // the side depends on rounding
         const double expected = cos > 0 ? double(albedo) / std::numbers::pi * double(lux) * cos : 0;
-        wrong += !(std::abs(picture.pixels[i].x - expected) <= 1e-5);
+        wrong += !(std::abs(image.pixels[i].x - expected) <= 1e-5);
         lit += cos > 0;
     }
     return {count_of(wrong, "pixels that are lit wrongly"), count_of(lit < 200, "too few pixels are lit")};
@@ -109,13 +109,13 @@ std::vector<StabilityCase> scale_cases() {
                              return same_bits(std::ldexp(1.f, exponent), {0, 0, 0});
                          }});
     for (const float scale : {1e-6f, 1e-3f, 1e3f, 1e6f})
-        cases.push_back({fmt::format("still life scaled by {:g}", scale), scales, [scale] { return same_picture(scale, {0, 0, 0}); }});
+        cases.push_back({fmt::format("still life scaled by {:g}", scale), scales, [scale] { return same_render(scale, {0, 0, 0}); }});
     for (const Vec3& away : {Vec3{1e7f, 0, 0}, Vec3{0, -1e7f, 0}, Vec3{-1e7f, 1e7f, 1e7f}})
         cases.push_back({fmt::format("still life at ({:g}, {:g}, {:g}), bit for bit", away.x, away.y, away.z), far_away,
                          [away] { return same_bits(1, away); }});
     for (const Vec3& away : {Vec3{1234567, -7654321, 9999991}, Vec3{100, 20, -30}})
         cases.push_back({fmt::format("still life at ({:.7g}, {:.7g}, {:.7g})", away.x, away.y, away.z), far_away,
-                         [away] { return same_picture(1, away); }});
+                         [away] { return same_render(1, away); }});
     cases.push_back({"still life scaled by 1024, at 2^33 m, bit for bit", far_away, [] {
                          return same_bits(1024, {0x1p33f, 0, -0x1p33f});
                      }});

@@ -149,7 +149,7 @@ void constant_world(Scene& scene, float nits) {
     scene.environment.kind = Environment::Kind::constant;
     scene.environment.intensity = nits;
 }
-ImagePtr float_picture(int width, int height, std::span<const Vec3> texels) {
+ImagePtr float_image(int width, int height, std::span<const Vec3> texels) {
     Image image;
     image.width = width;
     image.height = height;

@@ -39,7 +39,7 @@ Id<Node> place_light(Scene& scene, const Light& light, const Transform& transfor
 Id<Texture> add_texture(Scene& scene, const ImagePtr& image, Texture::Filter filter = Texture::Filter::nearest);
 void constant_world(Scene& scene, float nits);
 // An image of width x height RGB values.
-ImagePtr float_picture(int width, int height, std::span<const Vec3> texels);
+ImagePtr float_image(int width, int height, std::span<const Vec3> texels);
 
 Transform at(const Vec3& position, float scale = 1);
 // Rotation of -Z (emission and view axis) to `direction`.

@@ -44,7 +44,7 @@ Findings bright_texel(int column, int row, float background, float bright) {
     const std::vector<Vec3> texels = black_but_for(column, row, background, bright);
     Scene scene;
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_picture(columns, rows, texels);
+    scene.environment.image = float_image(columns, rows, texels);
     const double coarse = irradiance_of(texels, 16), expected = irradiance_of(texels, 32);
     Findings all = quarters(scene, [&](const Vec3d&) { return expected; });
     // Error of the midpoint rule: a third of the change by the finer steps.
@@ -70,11 +70,11 @@ Findings sun_in_a_mirror(float angle) {
     // Looks down from 1 m; the reflected disk covers about a quarter of the image.
     const float half = angle;
     scene.view = looking({0, 1, 0}, {0, 0, 0}, 2 * half);
-    const Picture picture = render(scene, settings_for(32, 32, 64));
+    const RenderedImage image = render(scene, settings_for(32, 32, 64));
     // Area of the disk over that of the image, both on the plane at distance 1.
     const double radius = std::tan(double(angle) / 2), edge = 2 * std::tan(double(scene.view.lens.yfov_radians) / 2);
     const double radiance = 5 / (std::numbers::pi * std::pow(std::sin(double(angle) / 2), 2));
-    return whole(picture, radiance * std::numbers::pi * radius * radius / (edge * edge));
+    return whole(image, radiance * std::numbers::pi * radius * radius / (edge * edge));
 }
 
 } // namespace

@@ -43,8 +43,8 @@ public:
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;
 
-    // Beside this many instances, area lights (meshes and spheres) get a BVH of their own, so that moving one does not
-    // rebuild the large top level. Beside fewer, a second traversal costs more than it saves.
+    // In scenes with this many instances, area lights (meshes and spheres) get a BVH of their own, so that moving one does not
+    // rebuild the large top level. With fewer instances, a second traversal costs more than it saves.
     static constexpr size_t min_instances_for_area_light_bvh = 4096;
 
     // Builds the top level for `scene` and the missing bottom levels; frees unused ones. `tables` is read by the opacity test

@@ -154,7 +154,7 @@ template <class F> void trace_closest(const Accel& accel, const RayArrays& rays,
     else
         accel.intersect(rays, count, coherent, hits);
 }
-// Whether rays hit anything, likewise.
+// Whether rays hit anything, by the same tracer.
 template <class F> void trace_any(const Accel& accel, const RayArrays& rays, int count, bool coherent, uint8_t* blocked) {
     if (const SmallScene* scene = accel.small_scene())
         occluded_by_any<F>(*scene, rays, count, blocked);

@@ -1,5 +1,5 @@
 // Measures the speed of specialised kernels: renders the same tiles
-// with several kernels in turn, so that machine load affects all alike.
+// with several kernels in turn, so that machine load affects all equally.
 #pragma once
 
 #include "render/kernels/kernel.h"

@@ -1,4 +1,4 @@
-// The materials of rendered objects, and what they need of tables: asked once per material instead of once per part.
+// The materials of rendered objects, and the tables that they need: found once per material instead of once per part.
 #pragma once
 
 #include "render/compile/object_list.h"

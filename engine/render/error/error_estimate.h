@@ -11,7 +11,7 @@ namespace blush {
 // With errors a and b of the halves, the image (A + B) / 2 has the squared error (a + b)^2 / 4, and the half difference d = (A -
 // B) / 2 has the square (a - b)^2 / 4. They differ by ab, whose mean is 0 because the halves are independent, whatever the
 // correlation of samples within a half. So this is valid for low-discrepancy points, where the sample variance is not. The sum of
-// squared half differences estimates the squared error of this very image, not of an average one: a firefly affects both alike.
+// squared half differences estimates the squared error of this image, not that of an average one: a firefly affects both equally.
 //
 // What remains is the sum of ab, with variance var(a) var(b), for which there are two estimates. First: for neighbours with equal
 // noise, the product d d' has mean 0 and its square has a quarter of that variance as mean, even with heavy tails; it fails where

@@ -64,17 +64,17 @@ struct RowSums {
 
 class BandSummer {
 public:
-    BandSummer(const HalfBufferImage& picture, double scale)
-        : picture_(picture), scale_(scale), divisor_(scale), neighborhood_(picture.width, picture.height), above_(picture.width),
-          now_(picture.width), around_{PixelRow(picture.width), PixelRow(picture.width)}, root_(picture.width), pixels_(picture.width) {
-        rows_.fill(HalfBufferRow(picture.width));
+    BandSummer(const HalfBufferImage& image, double scale)
+        : image_(image), scale_(scale), divisor_(scale), neighborhood_(image.width, image.height), above_(image.width),
+          now_(image.width), around_{PixelRow(image.width), PixelRow(image.width)}, root_(image.width), pixels_(image.width) {
+        rows_.fill(HalfBufferRow(image.width));
     }
 
     ErrorSums sum(int first, int last) {
         const int lead_in = std::max(0, first - 1); // its differences are the upper neighbours of the first row
         loaded_ = std::max(0, lead_in - 2);
         for (int y = lead_in; y < last; ++y) {
-            for (; loaded_ < std::min(picture_.height, y + 3); ++loaded_) load_row(loaded_);
+            for (; loaded_ < std::min(image_.height, y + 3); ++loaded_) load_row(loaded_);
             RowSums row;
             add_pixels(y, row);
             if (y >= first) {
@@ -92,7 +92,7 @@ private:
     HalfBufferRow& row_at(int y) { return rows_[size_t(y % kept)]; }
 
     void load_row(int y) {
-        picture_.load(y, float(scale_), row_at(y));
+        image_.load(y, float(scale_), row_at(y));
         neighborhood_.add_row(row_at(y).own, y);
     }
 
@@ -103,7 +103,7 @@ private:
         pixels_.clear();
         const float* const from_weight_a = row.weight_a.pixels();
         float* const to_root = root_.pixels();
-        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+        for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide wa = load<Wide>(from_weight_a + x);
             store(to_root + x, sqrt(wa * (1 - wa)));
         }
@@ -115,7 +115,7 @@ private:
         const float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
         const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
         const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
-        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+        for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide square = load<Wide>(squares + x);
             sums.absolute.add(square, load<Wide>(products + x));
             sums.relative.add(load<Wide>(relative + x), load<Wide>(relative_products + x));
@@ -136,7 +136,7 @@ private:
         const auto add = [](float* to, const Wide& v) { store(to, load<Wide>(to) + v); };
         const Divisor divisor = divisor_;
         Wide largest = sums.largest;
-        for (int x = 0; x < picture_.width; x += PixelRow::step) {
+        for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide a = load<Wide>(from_a + x), b = load<Wide>(from_b + x), own = load<Wide>(from_own + x), mean = load<Wide>(means + x);
             const Wide root = load<Wide>(roots + x), difference = (a - b) * root, square = squared(difference);
             // `usual`: divisor of relmse by James-Stein shrinkage (1961); `least`: its lower bound.
@@ -168,7 +168,7 @@ private:
             const float *const r = u[0].pixels() - left, *const g = u[1].pixels() - left, *const b = u[2].pixels() - left;
             const float *const to_r = v[0].pixels(), *const to_g = v[1].pixels(), *const to_b = v[2].pixels();
             Wide sum{};
-            for (int x = 0; x < picture_.width; x += PixelRow::step)
+            for (int x = 0; x < image_.width; x += PixelRow::step)
                 sum += squared(load<Wide>(r + x) * load<Wide>(to_r + x) + load<Wide>(g + x) * load<Wide>(to_g + x) +
                                load<Wide>(b + x) * load<Wide>(to_b + x));
             return sum;
@@ -176,7 +176,7 @@ private:
         sums.absolute.neighbour_products += products(other.absolute, now_.absolute);
         sums.relative.neighbour_products += products(other.relative, now_.relative);
         const float *const known = other.known.pixels() - left, *const known_here = now_.known.pixels();
-        for (int x = 0; x < picture_.width; x += PixelRow::step) sums.pairs += load<Wide>(known + x) * load<Wide>(known_here + x);
+        for (int x = 0; x < image_.width; x += PixelRow::step) sums.pairs += load<Wide>(known + x) * load<Wide>(known_here + x);
     }
 
     // In double precision, in original units.
@@ -200,7 +200,7 @@ private:
         sums_.merge(s);
     }
 
-    const HalfBufferImage& picture_;
+    const HalfBufferImage& image_;
     double scale_;
     Divisor divisor_;
     NeighborhoodFilter neighborhood_;
@@ -232,11 +232,11 @@ void ErrorSums::merge(const ErrorSums& o) {
     largest = std::max(largest, o.largest);
 }
 
-ErrorSums sum_errors(const HalfBufferImage& picture, int first, int last) {
-    const ErrorSums sums = BandSummer(picture, 1).sum(first, last);
+ErrorSums sum_errors(const HalfBufferImage& image, int first, int last) {
+    const ErrorSums sums = BandSummer(image, 1).sum(first, last);
     if (sums.largest == 0 || (sums.largest <= max_value && sums.largest >= min_value)) return sums;
     // If values do not fit single precision, scales the image by a power of two into the middle of the range.
-    return BandSummer(picture, std::exp2(std::round(std::log2(target_value / sums.largest)))).sum(first, last);
+    return BandSummer(image, std::exp2(std::round(std::log2(target_value / sums.largest)))).sum(first, last);
 }
 
 } // namespace blush

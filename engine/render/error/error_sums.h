@@ -29,6 +29,6 @@ struct ErrorSums {
 template <class T> T normal_product(const T& square) { return square * square * (4.f / 3); }
 
 // Over rows [first, last).
-ErrorSums sum_errors(const HalfBufferImage& picture, int first, int last);
+ErrorSums sum_errors(const HalfBufferImage& image, int first, int last);
 
 } // namespace blush

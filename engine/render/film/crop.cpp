@@ -18,12 +18,12 @@ Frame cropped(const Frame& frame, const PixelRect& rect) {
     return part;
 }
 
-DenoisedPtr cropped(const DenoisedPtr& picture, const PixelRect& rect) {
-    if (!picture) return nullptr;
-    auto part = std::make_shared<DenoisedPicture>(*picture);
+DenoisedPtr cropped(const DenoisedPtr& image, const PixelRect& rect) {
+    if (!image) return nullptr;
+    auto part = std::make_shared<DenoisedImage>(*image);
     part->width = rect.x1 - rect.x0;
     part->height = rect.y1 - rect.y0;
-    part->denoised.rgb = cropped(picture->denoised.rgb, picture->width, rect, 3);
+    part->denoised.rgb = cropped(image->denoised.rgb, image->width, rect, 3);
     part->groups.reset();
     part->gains.clear();
     return part;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/frame.h"
-#include "render/session/denoised_picture.h"
-#include "scene/picture_region.h"
+#include "render/session/denoised_image.h"
+#include "scene/image_region.h"
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace blush {
 // shares of its light groups.
 Frame cropped(const Frame& frame, const PixelRect& rect);
 // Same size as the frame; null stays null. The light groups are dropped.
-DenoisedPtr cropped(const DenoisedPtr& picture, const PixelRect& rect);
+DenoisedPtr cropped(const DenoisedPtr& image, const PixelRect& rect);
 // `values_per_pixel` numbers for each pixel of an image of the given `width`; empty stays empty.
 template <class T> std::vector<T> cropped(const std::vector<T>& plane, int width, const PixelRect& rect, size_t values_per_pixel = 1) {
     std::vector<T> part;

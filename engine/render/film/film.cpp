@@ -40,7 +40,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
          sizeof(float)},
         {"ids", planes.ids, planes.ids ? "used by picking, the outline, the pixel probe or a layer" : "not used: no layer, no picking",
          sizeof(uint32_t) + sizeof(int32_t)},
-        {"coverage", size.transparent, size.transparent ? "the environment is hidden from the camera" : "the picture is opaque",
+        {"coverage", size.transparent, size.transparent ? "the environment is hidden from the camera" : "the image is opaque",
          places * sizeof(int64_t)},
         {"bounces", planes.bounces > 0, planes.bounces > 0 ? "used by a layer or a view" : "not used: no layer, no view",
          places * BouncePlanes::bytes_per_pixel(bounces)},
@@ -390,9 +390,9 @@ ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const
     const size_t n = size_t(width_) * size_t(height_);
     while (i < n && !half_buffers(i).known) ++i;
     if (i == n) return {};
-    const HalfBufferImage picture{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_half_buffers(y, scale, row); }};
+    const HalfBufferImage image{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_half_buffers(y, scale, row); }};
     std::vector<ErrorSums> bands(count_bands());
-    for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(picture, first, last); });
+    for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(image, first, last); });
     ErrorSums sums;
     for (const ErrorSums& band : bands) sums.merge(band);
     return blush::estimate_error(sums, sharing);

@@ -20,7 +20,7 @@
 
 namespace blush {
 
-// A pixel as two half-sample means. Unknown until both halves hold samples.
+// A pixel as the means of its two half buffers. Unknown until both have samples.
 struct PixelHalfBuffers {
     bool known = false;
     Vec3d a{0, 0, 0}, b{0, 0, 0}; // means

@@ -1,4 +1,4 @@
-// The planes and the size of a film: what sessions and views ask for, without the film itself.
+// The planes and the size of a film, for sessions and views that do not need the film itself.
 #pragma once
 
 namespace blush {

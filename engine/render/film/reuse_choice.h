@@ -20,9 +20,9 @@ constexpr std::array<int, 2> automatic_group_sizes{8, 16};
 int reuse_group_size(const RenderSettings& settings, const std::optional<PilotFigures>& pilot);
 
 // With RenderSettings::reuse automatic, the first sample of each pixel and all samples of coarse images are rendered with path reuse,
-// so that no edit waits for a pilot. The pilot (reuse_pilot.h) decides over the other samples, also how many pixels share. It depends on
-// the scene and the settings alone, not on the image's samples: so every sample is unbiased, and a sample is the same in whatever range it
-// is rendered. Without any surface that path reuse needs, there is neither.
+// so that no edit waits for a pilot. The pilot (reuse_pilot.h) decides about the other samples, also how many pixels share. It depends on
+// the scene and the settings alone, not on the image's samples: so every sample is unbiased, and a sample is the same in any range in which
+// it is rendered. A scene without a surface that path reuse needs gets neither path reuse nor a pilot.
 class ReuseChoice {
 public:
     ReuseChoice() = default;

@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-constexpr uint32_t pilot_seed = 0x9110737e;  // any; it only has to differ from those of pictures
+constexpr uint32_t pilot_seed = 0x9110737e;  // any; it only has to differ from those of images
 constexpr int tile_side = 8;                 // small, so that there are many; a whole block of groups
 constexpr int samples = 8;                   // of each pixel, both halves together
 constexpr int min_tiles = 8, max_tiles = 64; // of the pilot, if the film has as many;

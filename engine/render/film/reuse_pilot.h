@@ -1,4 +1,4 @@
-// Pilot of path reuse: measures on a part of the image what it gains and costs.
+// Pilot of path reuse: measures gain and cost of path reuse on a part of the image.
 #pragma once
 
 #include "core/parallel.h"
@@ -22,7 +22,7 @@ namespace blush {
 // The mean of the pixel is no divisor: it would hide fireflies, and count a firefly that path reuse has spread over eight pixels eight
 // times. Cost is counted in rays, not in time.
 //
-// `context` as for the film at full resolution, its seed and groups aside. `scratch`: one per worker, allocated if needed. Empty if
+// `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if needed. Empty if
 // `wanted` returned false.
 std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);

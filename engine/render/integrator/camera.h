@@ -40,11 +40,11 @@ template <Features S, class F>
 Ray<F> camera_ray(const CameraRecord& camera, const F& x, const F& y, float width, float height, const F& lens_u, const F& lens_v) {
     const F sx = x * (2.f / width) - 1.f, sy = 1.f - y * (2.f / height);
     const Vec<F> eye = splat<F>(camera.position), forward = splat<F>(camera.forward);
-    const Vec<F> aside = splat<F>(camera.right) * sx + splat<F>(camera.up) * sy;
+    const Vec<F> lateral = splat<F>(camera.right) * sx + splat<F>(camera.up) * sy;
     if constexpr (S.has(Feature::orthographic)) {
-        if (camera.orthographic) return {eye + aside, forward};
+        if (camera.orthographic) return {eye + lateral, forward};
     }
-    const Vec<F> through = forward + aside;
+    const Vec<F> through = forward + lateral;
     if constexpr (S.has(Feature::thin_lens)) {
         if (camera.aperture_radius > 0) {
             const Vec2T<F> lens = sample_disk(lens_u, lens_v) * F(camera.aperture_radius);

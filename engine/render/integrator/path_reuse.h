@@ -256,7 +256,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
             RadianceColumns& after = scratch.bounces->after[size_t(k)];
             distribute<F>(reuse, batch, group_size, share, {after.r, after.g, after.b});
         }
-        // Light groups likewise.
+        // Planes of light groups are shared in the same way.
         if (scratch.groups)
             for (RadianceColumns& group : scratch.groups->all) distribute<F>(reuse, batch, group_size, share, {group.r, group.g, group.b});
     }

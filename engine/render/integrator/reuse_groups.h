@@ -6,7 +6,7 @@
 namespace blush {
 
 // The film is divided into blocks, and a block into as many cells as a group has members. A group has one pixel of each cell, so
-// neighbours are in different groups. The pixels are selected anew for every sample: with fixed partners the common error would
+// neighbours are in different groups. The pixels are selected again for every sample: with fixed partners the common error would
 // remain as a repeating texture that a denoiser keeps. The error of a block's mean is still common to its pixels and not reduced
 // by sharing: the larger the block, the further that error is below the noise of its pixels, and the less visible are edges
 // between blocks. Groups never cross blocks, so tiles made of whole blocks have whole groups, except at the film's border.

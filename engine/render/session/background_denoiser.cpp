@@ -19,8 +19,8 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
     // Each light group is denoised separately.
-    const double pictures = double(std::max<size_t>(1, frame.groups.size()));
-    return {image, frame.samples, frame.divider, frame.complete, pictures * double(frame.width) * double(frame.height) * 1e-6};
+    const double planes = double(std::max<size_t>(1, frame.groups.size()));
+    return {image, frame.samples, frame.divider, frame.complete, planes * double(frame.width) * double(frame.height) * 1e-6};
 }
 
 } // namespace
@@ -123,7 +123,7 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
         scales_.clear();
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
-        return {denoised_picture(*task.frame, quality, *std::move(all)), {}};
+        return {denoised_image(*task.frame, quality, *std::move(all)), {}};
     } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
         return {nullptr, e.what()};
     }
@@ -146,7 +146,7 @@ DenoiseCadence::Decision BackgroundDenoiser::due() const {
     return wanted_ && maker_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
 }
 
-// Before the thread that offers a frame goes on rendering.
+// Before the thread that offers a frame continues to render.
 void BackgroundDenoiser::update_pause() { pauses_rendering_ = (running_.quality ? running_ : due()).pauses_rendering; }
 
 void BackgroundDenoiser::run() {
@@ -171,15 +171,15 @@ void BackgroundDenoiser::run() {
         lock.unlock();
         const double begun = now(), shut_before = gate_.closed_seconds();
         Outcome outcome = denoise(task, *decision.quality);
-        const double preparing = outcome.picture ? outcome.picture->denoised.seconds_of_preparation : 0;
+        const double preparing = outcome.denoised ? outcome.denoised->denoised.seconds_of_preparation : 0;
         const double seconds = now() - begun - (gate_.closed_seconds() - shut_before) - preparing;
         lock.lock();
-        cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.picture != nullptr);
+        cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.denoised != nullptr);
         failure_ = std::move(outcome.failure);
         running_ = {};
         update_pause();
         lock.unlock();
-        on_answer_(task.image, task.frame, std::move(outcome.picture));
+        on_answer_(task.image, task.frame, std::move(outcome.denoised));
         lock.lock();
     }
 }

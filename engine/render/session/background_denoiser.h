@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/session/denoise_cadence.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 #include "render/session/pause_gate.h"
 
 #include <atomic>
@@ -58,7 +58,7 @@ private:
         bool promised = false; // the session waits for it: finished even if a newer frame arrives
     };
     struct Outcome {
-        DenoisedPtr picture;
+        DenoisedPtr denoised;
         std::string failure;
     };
 

@@ -14,7 +14,7 @@ namespace blush {
 // image's render time: noise has halved then, and soon raw frames would be better than the last denoised one. Other frames are denoised
 // at most once per second, all together for at most a tenth of the render time. After a while without edits the large network is used, and
 // the final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Rendering pauses
-// for short runs of the small network: on few cores both at once would delay the denoised picture by more than the samples are worth.
+// for short runs of the small network: on few cores both at once would delay the denoised image by more than the samples are worth.
 // Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:

@@ -16,7 +16,7 @@ public:
     static constexpr double time_share = 0.005; // of rendering
     static constexpr double growth = 1.1;       // of the samples, from one estimate to the next
 
-    struct Picture {
+    struct Source {
         int64_t samples = 0; // per pixel; an estimate needs at least two
         double pixels = 0;
         double seconds = 0;  // of rendering
@@ -25,9 +25,9 @@ public:
 
     // Starts a new image.
     void restart();
-    bool due(const Picture& picture) const;
+    bool due(const Source& image) const;
     // Records an estimate that took so many seconds.
-    void record(const Picture& picture, double seconds);
+    void record(const Source& image, double seconds);
     // Seconds spent on estimates of this image.
     double spent() const { return budget_.spent(); }
 

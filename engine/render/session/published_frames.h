@@ -2,13 +2,13 @@
 #pragma once
 
 #include "render/frame.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 
 #include <cstdint>
 
 namespace blush {
 
-struct Pictures {
+struct Images {
     FramePtr frame;       // null before the first
     DenoisedPtr denoised; // of the same image as the frame, possibly with fewer samples or lower resolution; null: none yet
 };
@@ -17,7 +17,7 @@ struct Pictures {
 // noisy and clean, so a frame may be withheld until it is denoised. `image` counts images and never decreases.
 class PublishedFrames {
 public:
-    const Pictures& pictures() const { return shown_; }
+    const Images& images() const { return shown_; }
 
     void show(uint64_t image, FramePtr frame);
     // Shows the frame when its denoised version arrives, unless another frame is shown before.
@@ -30,7 +30,7 @@ public:
     void release();
 
 private:
-    Pictures shown_;
+    Images shown_;
     uint64_t image_ = 0; // of the shown frame
     FramePtr withheld_;
     uint64_t withheld_image_ = 0;

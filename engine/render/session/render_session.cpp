@@ -120,7 +120,7 @@ struct RenderSession::State {
     void answer(RequestedFilm kept);
     void receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised);
     void on_networks_freed();
-    Pictures current_pictures() const;
+    Images current_images() const;
 };
 
 SessionStatus::State RenderSession::State::due_state() const {
@@ -147,12 +147,12 @@ void RenderSession::State::announce(std::optional<SessionStatus::State> passing)
 // Keeps the cost negligible, unless an estimate is requested.
 void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
     const bool mixed_anew = estimated.samples > 0 && estimated.gains != frame.gains;
-    const ErrorCadence::Picture picture{frame.samples, double(frame.width) * double(frame.height), frame.seconds,
-                                        wanted || mixed_anew || scheduler.finished() || scheduler.error_may_be_reached()};
-    if (frame.divider == 1 && !estimated.is_of(frame) && error_cadence.due(picture)) {
+    const ErrorCadence::Source image{frame.samples, double(frame.width) * double(frame.height), frame.seconds,
+                                     wanted || mixed_anew || scheduler.finished() || scheduler.error_may_be_reached()};
+    if (frame.divider == 1 && !estimated.is_of(frame) && error_cadence.due(image)) {
         const auto begin = Clock::now();
         estimated = {renderer->estimate_error(), frame.samples, frame.seconds, frame.gains};
-        error_cadence.record(picture, seconds_between(begin, Clock::now()));
+        error_cadence.record(image, seconds_between(begin, Clock::now()));
         scheduler.record_error(estimated.error.known ? estimated.error.relmse : -1);
     }
     frame.error = estimated.error;
@@ -175,7 +175,7 @@ std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
 
 // Remixes denoised groups without denoising again.
 void RenderSession::State::mix_denoised(const Frame& frame) {
-    const DenoisedPtr before = current_pictures().denoised;
+    const DenoisedPtr before = current_images().denoised;
     if (!before || !before->groups || before->gains == frame.gains || frame.light_groups != before->groups->of) return;
     DenoisedPtr after = remixed(*before, frame.gains);
     const std::lock_guard lock(mutex);
@@ -189,7 +189,7 @@ void RenderSession::State::publish() {
     if (!has_first_image) first_image_seconds = seconds_between(submitted_at, Clock::now());
     has_first_image = true;
     frame->first_image_seconds = first_image_seconds;
-    const Pictures previous = current_pictures(); // freed after unlocking
+    const Images previous = current_images(); // freed after unlocking
     const std::lock_guard lock(mutex);
     if (denoiser->offer(current->image, frame))
         published_frames.withhold(current->image, frame);
@@ -199,7 +199,7 @@ void RenderSession::State::publish() {
 
 // Called on the denoiser's thread.
 void RenderSession::State::receive_denoised(uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
-    const Pictures previous = current_pictures();
+    const Images previous = current_images();
     // The mix may have changed during denoising.
     if (denoised && denoised->groups && previous.frame && previous.frame->light_groups == denoised->groups->of)
         if (previous.frame->gains != denoised->gains) denoised = remixed(*denoised, previous.frame->gains);
@@ -223,9 +223,9 @@ void RenderSession::State::on_networks_freed() {
     on_frame();
 }
 
-Pictures RenderSession::State::current_pictures() const {
+Images RenderSession::State::current_images() const {
     const std::lock_guard lock(mutex);
-    return published_frames.pictures();
+    return published_frames.images();
 }
 
 void RenderSession::State::begin_image(const RenderSettings& film_settings, const FilmState* film) {
@@ -233,8 +233,8 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     error_cadence.restart();
     estimated = {};
     scheduler.restart(film_settings, true);
-    const double pictures = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
-    scheduler.expect_denoising(1e-6 * pictures * denoiser->coarse_speed());
+    const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
+    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed());
     announce(SessionStatus::State::updating);
     if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
     renderer->set_planes(with_first_hits(current->planes, options));
@@ -462,10 +462,10 @@ void RenderSession::want_denoised(bool wanted) {
         const std::lock_guard lock(state_->mutex);
         state_->published_frames.release();
     }
-    state_->wake.notify_one(); // rendering may have paused for a denoised picture
+    state_->wake.notify_one(); // rendering may have paused for a denoised image
 }
 
-Pictures RenderSession::pictures() const { return state_->current_pictures(); }
+Images RenderSession::images() const { return state_->current_images(); }
 
 SessionStatus RenderSession::status() const {
     const std::lock_guard lock(state_->mutex);

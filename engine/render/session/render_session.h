@@ -83,8 +83,8 @@ public:
     // nothing: existing ones remain after disabling.
     void want_denoised(bool wanted);
     // The latest published frame, or null, and the denoised version of its image. Blocks at most for a pointer copy.
-    Pictures pictures() const;
-    FramePtr latest() const { return pictures().frame; }
+    Images images() const;
+    FramePtr latest() const { return images().frame; }
     SessionStatus status() const;
 
 private:

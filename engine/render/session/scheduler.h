@@ -31,7 +31,7 @@ public:
     static constexpr double first_image_seconds = 1.0 / 80;
     // The same with denoising, if each first image is denoised before it is shown and may be half as fine for it.
     static constexpr double first_denoised_seconds = 1.0 / 40;
-    // Ratio of measured times that is taken for chance: within it, the first image keeps the resolution of the last one.
+    // Ratio of measured times that counts as noise: within it, the first image keeps the resolution of the last one.
     static constexpr double timing_tolerance = 1.1;
     // Coarse images get samples until they took this share of a sample at full resolution: until that is shown, more samples in fewer
     // pixels have the lower error.

@@ -21,7 +21,7 @@ struct Submission {
     RenderSettings settings;
     PlaneSet planes; // in addition to the first-hit planes
     Changes changes; // since the submission before; of the first one: none
-    // True if the image of the submission before goes on with its samples.
+    // True if the image of the previous submission continues with its samples.
     bool continues_image = false;
     LightGroupsPtr groups = nullptr; // of the scene that began the image; null: no light mix
     Mixing mixing = {};              // the mix of `scene` for planes of `groups`; empty without groups
@@ -31,7 +31,7 @@ struct Submission {
 };
 using SubmissionPtr = std::shared_ptr<const Submission>;
 
-// What is submitted. Valid while the caller's values are.
+// The submitted scene and settings. Valid as long as the caller's values.
 struct SubmissionContent {
     const Scene& scene;
     const RenderSettings& settings;

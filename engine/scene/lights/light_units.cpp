@@ -138,7 +138,7 @@ float intensity_of(const Light& light, Light::Unit unit, double value, double ar
 
 double luminous_flux(const Light& light, double area_scale) { return double(light.intensity) * flux_of_one(light, area_scale); }
 
-Light with_power_kept(const Light& before, Light after) {
+Light with_same_power(const Light& before, Light after) {
     if (!after.keep_power || !is_per_area(after.kind) || before.kind != after.kind) return after;
     const double kept = double(after.intensity) * flux_of_one(before, 1) / flux_of_one(after, 1);
     if (std::isfinite(float(kept))) after.intensity = float(kept);

@@ -41,6 +41,6 @@ float intensity_of(const Light& light, Light::Unit unit, double value, double ar
 double luminous_flux(const Light& light, double area_scale = 1);
 
 // Returns `after`, a resized `before`. With keep_power, its intensity is changed to give the same flux.
-Light with_power_kept(const Light& before, Light after);
+Light with_same_power(const Light& before, Light after);
 
 } // namespace blush

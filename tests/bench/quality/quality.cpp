@@ -1,8 +1,8 @@
-// Time to quality after an edit: FLIP and relMSE of what is on the screen against the converged picture of the edited scene, at fixed
+// Time to quality after an edit: FLIP and relMSE of what is on the screen against the converged image of the edited scene, at fixed
 // times after the edit, raw and denoised.
 #include "tests/bench/bench.h"
 #include "tests/bench/edits.h"
-#include "tests/bench/quality/peer_pictures.h"
+#include "tests/bench/quality/peer_images.h"
 #include "tests/bench/quality/quality_scenes.h"
 #include "tests/bench/quality/screen.h"
 #include "tests/bench/quality/shown_error.h"
@@ -19,14 +19,14 @@ namespace blush::bench {
 namespace {
 
 constexpr int edit_step = 50;        // an edit that is plain to see: light times 1.5, camera by a twentieth of the distance
-constexpr double refined_before = 1; // seconds between the picture of the scene before the edit and the edit
+constexpr double refined_before = 1; // seconds between the image of the scene before the edit and the edit
 
 constexpr double quiet_share =
     0.88; // of the time of all threads, in a run that other load does not disturb; the denoiser does not keep all busy
 constexpr int max_attempts = 5;
 
 constexpr const char* kinds[]{"light", "material", "camera", "object", "environment"};
-constexpr const char* pictures[]{"raw", "denoised"};
+constexpr const char* images[]{"raw", "denoised"};
 
 std::vector<double> deadlines_of(const Options& options) {
     std::vector<double> deadlines{0.033, 0.1, 0.3, 1, 3, 10};
@@ -40,7 +40,7 @@ RenderSettings settings_of(const Options& options) {
     return settings;
 }
 
-// The converged picture; samples in the cache are kept and added to.
+// The converged image; samples in the cache are kept and added to.
 Reference reference_of(const Scene& scene, const Options& options) {
     const RenderSettings settings = settings_of(options);
     const std::vector<uint32_t> compared = [&] {
@@ -62,28 +62,28 @@ Reference reference_of(const Scene& scene, const Options& options) {
     return reference;
 }
 
-// What was measured at one time after an edit, over the rounds.
+// The measurements at one time after an edit, over the rounds.
 struct AtDeadline {
     std::vector<double> flip, relmse, divider, samples;
 };
 struct Curve {
-    std::vector<double> first_ms; // of rounds that showed a picture of the edited scene
+    std::vector<double> first_ms; // of rounds that showed an image of the edited scene
     std::vector<double> share;    // of the time of all threads that this process got: far below 1 if others keep the machine busy
     std::vector<AtDeadline> at;
 };
 
 void add(Curve& curve, const AfterEdit& after, const ErrorMeter& meter, bool denoised) {
     if (after.first_ms > 0) curve.first_ms.push_back(after.first_ms);
-    curve.at.resize(after.pictures.size());
+    curve.at.resize(after.images.size());
     ShownError error;
-    for (size_t i = 0; i < after.pictures.size(); ++i) {
-        const Pictures& now = after.pictures[i];
-        if (i == 0 || now.frame != after.pictures[i - 1].frame || now.denoised != after.pictures[i - 1].denoised)
+    for (size_t i = 0; i < after.images.size(); ++i) {
+        const Images& now = after.images[i];
+        if (i == 0 || now.frame != after.images[i - 1].frame || now.denoised != after.images[i - 1].denoised)
             error = meter.of(now, denoised);
         AtDeadline& at = curve.at[i];
         at.flip.push_back(error.flip);
         at.relmse.push_back(error.relmse);
-        // Of the picture that is shown; 0 of the one of before the edit.
+        // Of the image that is shown; 0 of the one of before the edit.
         const bool is_new = now.frame->revision == after.revision, shows_denoised = denoised && now.denoised;
         at.divider.push_back(!is_new ? 0 : shows_denoised ? now.denoised->divider : now.frame->divider);
         at.samples.push_back(double(!is_new ? 0 : shows_denoised ? now.denoised->samples : now.frame->samples));
@@ -132,16 +132,16 @@ Json measure(const BenchScene& scene, const ColorManagement& color, const Option
         meters.emplace(kind.name, ErrorMeter(color, reference_of(after, options).measured));
     }
 
-    std::map<std::pair<std::string, std::string>, Curve> curves; // by kind of edit and of picture
+    std::map<std::pair<std::string, std::string>, Curve> curves; // by kind of edit and of image
     for (int round = 0; round < options.rounds; ++round)
-        for (const std::string picture : pictures) {
-            const bool denoised = picture == "denoised";
+        for (const std::string image : images) {
+            const bool denoised = image == "denoised";
             Screen screen(options.threads, denoised);
             RenderSettings settings = settings_of(options);
             settings.seed = uint32_t(round);
             for (const EditKind& kind : edits) {
                 const Run run = least_disturbed_run(screen, scene.scene, edited[kind.name], settings, options);
-                Curve& curve = curves[{kind.name, picture}];
+                Curve& curve = curves[{kind.name, image}];
                 curve.share.push_back(run.share);
                 add(curve, run.after, meters.at(kind.name), denoised);
             }
@@ -153,9 +153,9 @@ Json measure(const BenchScene& scene, const ColorManagement& color, const Option
             rows.push_back({{"scene", scene.name()}, {"edit", kind}, {"skipped", "the scene has none"}});
             continue;
         }
-        for (const std::string picture : pictures) {
-            Json row{{"scene", scene.name()}, {"edit", kind}, {"picture", picture}};
-            row.update(row_of(curves[{kind, picture}], deadlines));
+        for (const std::string image : images) {
+            Json row{{"scene", scene.name()}, {"edit", kind}, {"image", image}};
+            row.update(row_of(curves[{kind, image}], deadlines));
             row["reference_relmse"] = rounded(meters.at(kind).reference_relmse());
             rows.push_back(row);
         }
@@ -182,7 +182,7 @@ Json run_quality(const Options& options) {
         fmt::print(stderr, "  {}\n", scene.name());
         for (Json& row : measure(scene, color, options)) result["curves"].push_back(std::move(row));
     }
-    for (const std::filesystem::path& file : options.peer_pictures) result["curves"].push_back(peer_row(file, color));
+    for (const std::filesystem::path& file : options.peer_images) result["curves"].push_back(peer_row(file, color));
     return result;
 }
 

@@ -6,7 +6,7 @@
 
 namespace blush::bench {
 
-// FLIP over milliseconds after an edit, from the JSON of run_quality: one curve for each scene and kind of picture, the mean over
+// FLIP over milliseconds after an edit, from the JSON of run_quality: one curve for each scene and kind of image, the mean over
 // the edits.
 Plot quality_plot(const Json& quality);
 

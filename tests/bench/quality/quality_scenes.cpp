@@ -57,7 +57,7 @@ ImagePtr generated_sky() {
             const bool sun = (x == 180 || x == 181) && (y == 70 || y == 71);
             texels.push_back(sun ? Vec3{9000, 8000, 6500} : up > 0 ? Vec3{0.5f, 0.7f, 1} * (1.5f - up) : Vec3{0.2f, 0.18f, 0.15f});
         }
-    return stability::float_picture(width, height, texels);
+    return stability::float_image(width, height, texels);
 }
 
 ImagePtr generated_texture() {
@@ -66,7 +66,7 @@ ImagePtr generated_texture() {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
             texels.push_back((x / 32 + y / 32) % 2 ? Vec3{0.8f, 0.6f, 0.4f} : Vec3{0.1f, 0.2f, 0.35f} * (0.5f + 0.5f * float(x % 32) / 32));
-    return stability::float_picture(side, side, texels);
+    return stability::float_image(side, side, texels);
 }
 
 Scene generated_model() {

@@ -34,7 +34,7 @@ std::string Screen::failure() const {
 }
 
 bool Screen::shows_full_size() const {
-    const auto [frame, denoised] = session_.pictures();
+    const auto [frame, denoised] = session_.images();
     if (!frame || frame->revision != revision_ || frame->divider != 1) return false;
     return !denoised_ || (denoised && denoised->divider == 1);
 }
@@ -56,7 +56,7 @@ Result<AfterEdit> Screen::edit(const Scene& scene, const RenderSettings& setting
     AfterEdit after;
     for (const double deadline : deadlines) {
         std::this_thread::sleep_until(submitted_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(deadline)));
-        after.pictures.push_back(session_.pictures());
+        after.images.push_back(session_.images());
     }
     session_.pause(true);
     if (const std::string why = failure(); !why.empty()) return Error{.what = why};

@@ -1,4 +1,4 @@
-// The pictures that the window shows after an edit, at given times: a session as the window has it, refining the scene of before.
+// The images that the window shows after an edit, at given times: a session as the window has it, refining the scene of before.
 #pragma once
 
 #include "render/session/render_session.h"
@@ -12,19 +12,19 @@
 namespace blush::bench {
 
 struct AfterEdit {
-    uint64_t revision = 0;          // of the edited scene
-    double first_ms = 0;            // from the edit to its first picture; 0: none before the last deadline
-    std::vector<Pictures> pictures; // at each deadline: those of before the edit if there was no other
+    uint64_t revision = 0;      // of the edited scene
+    double first_ms = 0;        // from the edit to its first image; 0: none before the last deadline
+    std::vector<Images> images; // at each deadline: those of before the edit if there was no other
 };
 
 class Screen {
 public:
-    // `denoised`: denoised pictures are wanted, as after N in the window.
+    // `denoised`: denoised images are wanted, as after N in the window.
     Screen(unsigned threads, bool denoised);
 
     // Shows the scene at full size, denoised if wanted, and refines it for `seconds`. Errors: those of the session.
     Result<void> show(const Scene& scene, const RenderSettings& settings, double seconds);
-    // Submits the edited scene and takes what is shown at each of the `deadlines`, ascending seconds after the edit; it keeps the
+    // Submits the edited scene and records the displayed images at each of the `deadlines`, ascending seconds after the edit; it keeps the
     // frames and copies no pixels, so that it does not disturb the session. Then the session pauses until the next show().
     Result<AfterEdit> edit(const Scene& scene, const RenderSettings& settings, std::span<const double> deadlines);
 

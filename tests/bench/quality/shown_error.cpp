@@ -2,8 +2,8 @@
 
 #include "color/exposure_meter.h"
 #include "core/math.h"
+#include "measure/metrics/image_error.h"
 #include "measure/metrics/metrics.h"
-#include "measure/metrics/picture_error.h"
 #include "ui/views/denoise_view.h"
 
 #include <algorithm>
@@ -53,10 +53,10 @@ RgbImage ErrorMeter::displayed(RgbImage image) const {
     return image;
 }
 
-ShownError ErrorMeter::of(const Pictures& pictures, bool denoised) const {
-    const Frame& frame = *pictures.frame;
+ShownError ErrorMeter::of(const Images& images, bool denoised) const {
+    const Frame& frame = *images.frame;
     const DenoiseView view{.show = denoised ? DenoiseView::Show::denoised : DenoiseView::Show::raw};
-    const std::vector<float> rgb = mixed_picture(frame, pictures.denoised.get(), mix_of(view, pictures.denoised != nullptr));
+    const std::vector<float> rgb = mixed_image(frame, images.denoised.get(), mix_of(view, images.denoised != nullptr));
     RgbImage shown{frame.width, frame.height, {}};
     for (size_t i = 0; i < rgb.size(); i += 3) shown.pixels.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
 

@@ -1,4 +1,4 @@
-// Error of a picture on the screen against the converged picture.
+// Error of an image on the screen against the converged image.
 #pragma once
 
 #include "color/color_management.h"
@@ -8,20 +8,20 @@
 namespace blush::bench {
 
 struct ShownError {
-    double flip = 0;   // mean of LDR-FLIP of the displayed pictures
+    double flip = 0;   // mean of LDR-FLIP of the displayed images
     double relmse = 0; // of the scene-linear values, less the noise of the reference
 };
 
-// Pictures are displayed with the default view, at the exposure that maps the reference's log-average luminance to middle grey.
+// Images are displayed with the default view, at the exposure that maps the reference's log-average luminance to middle grey.
 class ErrorMeter {
 public:
     // `color` must outlive it.
     ErrorMeter(const ColorManagement& color, MeasuredImage reference);
 
-    // The raw picture, or the denoised one where there is one, as the window draws it: coarse pictures are enlarged to the size of
-    // the reference by linear interpolation of displayed values. `pictures` must have a frame.
-    ShownError of(const Pictures& pictures, bool denoised) const;
-    // A scene-linear picture, coarse or not.
+    // The raw image, or the denoised one where there is one, as the window draws it: coarse images are enlarged to the size of
+    // the reference by linear interpolation of displayed values. `images` must have a frame.
+    ShownError of(const Images& images, bool denoised) const;
+    // A scene-linear image, coarse or not.
     ShownError of(const RgbImage& shown) const;
     // Of the reference's own noise.
     double reference_relmse() const;

@@ -14,7 +14,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeri
 enum Accessor : int { positions, normals, tangents, uvs, corners, joints, weights, binds, times, turns };
 
 // One triangle with a texture, a skin, an animation, a camera and a light.
-GltfBuilder sound() {
+GltfBuilder valid() {
     GltfBuilder b;
     b.triangle_positions();
     b.json["accessors"][positions]["min"] = {0, 0, 0};
@@ -283,7 +283,7 @@ Faults faults_of_extensions() {
         {"spot without a cone", without("/extensions/KHR_lights_punctual/lights/0", "spot")},
         {"image that is none",
          [](GltfBuilder& b) {
-             b.json["images"][0] = {{"bufferView", b.buffer_view("no picture, but words")}, {"mimeType", "image/png"}};
+             b.json["images"][0] = {{"bufferView", b.buffer_view("no image, but words")}, {"mimeType", "image/png"}};
          }},
         {"image of another kind", set("/images/0/mimeType", "image/jpeg")},
         {"image without a kind", without("/images/0", "mimeType")},
@@ -309,15 +309,15 @@ const Faults& faults() {
 
 } // namespace
 
-GltfFiles sound_files() {
+GltfFiles valid_files() {
     const auto plain = [](const std::function<void(GltfBuilder&)>& change) {
-        GltfBuilder b = sound();
+        GltfBuilder b = valid();
         change(b);
         return b.gltf();
     };
     return {
-        {"all.gltf", sound().gltf()},
-        {"all.glb", sound().glb()},
+        {"all.gltf", valid().gltf()},
+        {"all.glb", valid().glb()},
         {"coat.gltf", plain(extension("KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.5}}))},
         {"glass.gltf", plain(extension("KHR_materials_transmission", {{"transmissionFactor", 1}}))},
         {"index.gltf", plain(extension("KHR_materials_ior", {{"ior", 1.3}}))},
@@ -343,11 +343,11 @@ GltfFiles sound_files() {
 GltfFiles broken_files() {
     GltfFiles files;
     for (const auto& [name, change] : faults()) {
-        GltfBuilder b = sound();
+        GltfBuilder b = valid();
         change(b);
         files[name + ".gltf"] = b.gltf();
     }
-    const std::string whole = sound().glb(), text = sound().gltf();
+    const std::string whole = valid().glb(), text = valid().gltf();
     files["cut.glb"] = whole.substr(0, whole.size() / 2);
     files["of no chunk.glb"] = whole.substr(0, 12);
     files["longer than it says.glb"] = whole + "and more";

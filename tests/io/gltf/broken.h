@@ -10,7 +10,7 @@ namespace blush::test {
 // By name: the text of a .gltf, or a .glb's bytes.
 using GltfFiles = std::map<std::string, std::string>;
 
-GltfFiles sound_files();
+GltfFiles valid_files();
 GltfFiles broken_files();
 
 } // namespace blush::test

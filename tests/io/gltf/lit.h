@@ -10,7 +10,7 @@ namespace blush::test {
 
 inline const std::filesystem::path downlight = std::filesystem::path(BLUSH_ASSETS) / "ies" / "downlight.ies";
 
-inline Json shines(int light, Json more = Json::object()) {
+inline Json light_node(int light, Json more = Json::object()) {
     more["light"] = light;
     return {{"extensions", {{"EXT_lights_ies", more}}}};
 }
@@ -23,10 +23,10 @@ inline GltfBuilder with_luminaires(const TempFolder& folder) {
     const int view = b.buffer_view(text_of(downlight));
     b.json["extensions"]["EXT_lights_ies"]["lights"] = {
         {{"uri", "down%20light.ies"}}, {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}, {"name", "within"}}};
-    b.add("nodes", shines(0));
-    b.add("nodes", shines(0, {{"multiplier", 0.25}, {"color", {1, 0.5, 0.25}}}));
-    b.add("nodes", shines(0));
-    b.add("nodes", shines(1, {{"multiplier", 3}}));
+    b.add("nodes", light_node(0));
+    b.add("nodes", light_node(0, {{"multiplier", 0.25}, {"color", {1, 0.5, 0.25}}}));
+    b.add("nodes", light_node(0));
+    b.add("nodes", light_node(1, {{"multiplier", 3}}));
     b.add("scenes", {{"nodes", {0, 1, 2, 3}}});
     return b;
 }

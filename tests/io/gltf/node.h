@@ -20,14 +20,14 @@ inline std::string node_program() {
 }
 
 // Reason why the validator cannot run, or "".
-inline std::string why_no_validator() {
+inline std::string validator_problem() {
     if (!std::filesystem::exists(BLUSH_VALIDATOR "/index.js")) return "no glTF validator: packaging/setup fetches it";
     return node_program().empty() ? "no node to run the glTF validator with" : "";
 }
 
 // Skips the test where the validator is missing; fails it in CI (BLUSH_CI), where it is required.
 #define REQUIRE_VALIDATOR()                                                                                                                \
-    if (const std::string why = why_no_validator(); !why.empty()) {                                                                        \
+    if (const std::string why = validator_problem(); !why.empty()) {                                                                       \
         if (std::getenv("BLUSH_CI")) FAIL() << why;                                                                                        \
         GTEST_SKIP() << why;                                                                                                               \
     }

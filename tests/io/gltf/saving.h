@@ -52,7 +52,7 @@ inline std::filesystem::path rich_gltf(const TempFolder& folder) {
   "materials": [{"name": "paint", "emissiveFactor": [0.5, 0, 0],
     "pbrMetallicRoughness": {"roughnessFactor": 0.30000001192092896, "baseColorTexture": {"index": 0, "extras": [1]}, "metallicFactor": 0}}],
   "textures": [{"source": 0, "name": "checks"}],
-  "images": [{"uri": "pictures/two%20by%20two.png"}],
+  "images": [{"uri": "images/two%20by%20two.png"}],
   "cameras": [{"type": "perspective", "perspective": {"znear": 0.1, "yfov": 0.75, "aspectRatio": 1.5}, "name": "eye"}],
   "meshes": [{"primitives": [{"material": 0, "attributes": {"TEXCOORD_0": 1, "POSITION": 0}}], "name": "triangle"}],
   "accessors": [
@@ -66,10 +66,10 @@ inline std::filesystem::path rich_gltf(const TempFolder& folder) {
 )";
     constexpr float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
     const auto png = encode_png(*byte_image(2, 2, 3, 77));
-    std::filesystem::create_directories(folder / "rich/pictures");
+    std::filesystem::create_directories(folder / "rich/images");
     write_bytes(folder / "rich/scene.gltf", text);
     write_bytes(folder / "rich/triangle.bin", {reinterpret_cast<const char*>(corners), sizeof corners});
-    write_bytes(folder / "rich/pictures/two by two.png", {reinterpret_cast<const char*>(png->data()), png->size()});
+    write_bytes(folder / "rich/images/two by two.png", {reinterpret_cast<const char*>(png->data()), png->size()});
     return folder / "rich/scene.gltf";
 }
 

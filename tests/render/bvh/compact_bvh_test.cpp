@@ -2,7 +2,7 @@
 #include "render/bvh/accel.h"
 #include "render/bvh/compact_bvh.h"
 #include "render/compile/scene_tables.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cmath>

@@ -45,7 +45,7 @@ Scene bare() {
 }
 
 // Further attributes of a quad, with normals tilted away from its plane.
-GeometryPtr dressed_quad() {
+GeometryPtr quad_with_attributes() {
     Geometry g = *floor_quad(1);
     g.serial = next_payload_serial();
     g.normals = {{0.1f, 1, 0}, {0, 1, 0.1f}, {0, 1, 0}, {0, 1, 0}};
@@ -55,7 +55,7 @@ GeometryPtr dressed_quad() {
     return std::make_shared<const Geometry>(g);
 }
 
-ImagePtr texels(int side) { return float_picture(side, side, std::vector<Vec3>(size_t(side) * size_t(side), {0.5f, 0.5f, 1})); }
+ImagePtr texels(int side) { return float_image(side, side, std::vector<Vec3>(size_t(side) * size_t(side), {0.5f, 0.5f, 1})); }
 
 Scene rich() {
     Scene scene;
@@ -63,7 +63,7 @@ Scene rich() {
     m.base_color_texture.texture = add_texture(scene, texels(4));
     m.normal_texture.texture = add_texture(scene, texels(8));
     m.normal_texture.uv_set = 1;
-    place(scene, dressed_quad(), m);
+    place(scene, quad_with_attributes(), m);
     scene.environment.kind = Environment::Kind::image;
     scene.environment.image = texels(16);
     return scene;
@@ -193,7 +193,7 @@ TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
     for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {64, 32}, {500, 250}}) {
         Environment e;
         e.kind = Environment::Kind::image;
-        e.image = float_picture(width, height, std::vector<Vec3>(size_t(width * height), {1, 2, 3}));
+        e.image = float_image(width, height, std::vector<Vec3>(size_t(width * height), {1, 2, 3}));
         const EnvironmentTable t = build_environment_table(e);
         const auto bytes = [](const auto& v) { return int64_t(v.capacity() * sizeof(v[0])); };
         const EnvironmentBytes expected = environment_bytes(width, height);
@@ -224,7 +224,7 @@ TEST(FeatureReport, BytesOfTheFilmAreThoseAllocated) {
 // Vertices of instanced meshes are stored once, and counted once.
 TEST(FeatureReport, BytesOfVertexAttributesAreThoseAllocated) {
     Scene scene = rich();
-    const Id<Mesh> twice = scene.meshes.add({"", {{dressed_quad(), scene.materials.add(lambert(0.5f))}}});
+    const Id<Mesh> twice = scene.meshes.add({"", {{quad_with_attributes(), scene.materials.add(lambert(0.5f))}}});
     for (const float x : {-3.f, 3.f}) {
         Node node;
         node.mesh = twice;

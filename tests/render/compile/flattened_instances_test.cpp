@@ -5,7 +5,7 @@
 #include "render/compile/scene_tables.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -56,7 +56,7 @@ Scene pair_of(const Vec3& scale, How how, const GeometryPtr& shape = leaning_qua
     return scene;
 }
 
-Frame picture_of(const Scene& scene) { return render(scene, settings_for(48, 32, 16), planes).frame; }
+Frame image_of(const Scene& scene) { return render(scene, settings_for(48, 32, 16), planes).frame; }
 
 size_t pixels_of(const Frame& frame, uint32_t wall) {
     return size_t(std::ranges::count_if(frame.object_id, [&](uint32_t id) { return id != 0 && id != wall; }));
@@ -70,11 +70,11 @@ std::vector<Diagnostic> warnings_of(const Scene& scene) {
 
 TEST(Flattened, RenderLikeSmallSeparateMeshes) {
     for (const Vec3 scale : {Vec3{1, 1, 0}, Vec3{1, 1, 1e-30f}, Vec3{1, 1, 1e-7f}, Vec3{-0.7f, 1, 0}}) {
-        const Frame own = picture_of(pair_of(scale, How::own_mesh));
+        const Frame own = image_of(pair_of(scale, How::own_mesh));
         const size_t seen = pixels_of(own, 1);
         EXPECT_GT(seen, 100u);
         for (const How how : {How::shared_mesh, How::copies}) {
-            const Frame frame = picture_of(pair_of(scale, how));
+            const Frame frame = image_of(pair_of(scale, how));
             EXPECT_NEAR(double(pixels_of(frame, 1)), double(seen), 8) << scale.z << ": edges may round differently";
             double difference = 0, sum = 0, turned = 0;
             for (size_t i = 0; i < own.rgba.size(); ++i)
@@ -91,7 +91,7 @@ TEST(Flattened, OneTriangleOnTwoNodes) {
     auto triangle = std::make_shared<Geometry>();
     triangle->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     triangle->indices = {0, 1, 2};
-    EXPECT_GT(pixels_of(picture_of(pair_of({1, 1, 0}, How::shared_mesh, triangle)), 1), 20u);
+    EXPECT_GT(pixels_of(image_of(pair_of({1, 1, 0}, How::shared_mesh, triangle)), 1), 20u);
 }
 
 // A single mesh that is too large to be rebuilt at every move.
@@ -112,7 +112,7 @@ TEST(Flattened, ALargeMesh) {
     flat.scale = {1, 1, 0};
     const Id<Node> node = place(scene, grid, lambert(0.7f), flat);
     scene.view = looking({0, 0, 6}, {0, 0, 0}, 0.8f);
-    const Frame frame = picture_of(scene);
+    const Frame frame = image_of(scene);
     const auto seen = size_t(std::ranges::count(frame.object_id, node.value));
     EXPECT_NEAR(double(seen), std::pow(2 / (2 * 6 * std::tan(0.4)) * 32, 2), 40);
     size_t facing = 0;
@@ -140,7 +140,7 @@ TEST(Flattened, ToALineOrAPointAreRemovedWithAWarning) {
     for (const Vec3 scale : {Vec3{1, 0, 0}, Vec3{0, 0, 0}, Vec3{1e30f, 1e-30f, 1e-30f}})
         for (const How how : {How::shared_mesh, How::copies}) {
             const Scene scene = pair_of(scale, how);
-            EXPECT_EQ(pixels_of(picture_of(scene), 1), 0u);
+            EXPECT_EQ(pixels_of(image_of(scene), 1), 0u);
             const std::vector<Diagnostic> warnings = warnings_of(scene);
             ASSERT_EQ(warnings.size(), how == How::copies ? 1u : 2u);
             EXPECT_NE(warnings[0].what.find("not rendered"), std::string::npos) << warnings[0].what;
@@ -149,8 +149,8 @@ TEST(Flattened, ToALineOrAPointAreRemovedWithAWarning) {
     EXPECT_TRUE(warnings_of(pair_of({1, 1, 0}, How::shared_mesh)).empty());
 }
 
-// The window shows them with each picture; they are the same object until they change.
-TEST(Flattened, WarningsComeWithThePicture) {
+// The window shows them with each image; they are the same object until they change.
+TEST(Flattened, WarningsComeWithTheImage) {
     Renderer renderer({.threads = 1, .planes = {}});
     const auto warnings_with = [&](const Scene& scene) {
         renderer.update(scene, settings_for(8, 8, 1));
@@ -195,7 +195,7 @@ TEST(Flattened, CopiesWithEqualStretchShareAMesh) {
     EXPECT_TRUE(left_out.empty());
 }
 
-// The product of the factors is the original, and each factor has its promised properties.
+// The product of the factors is the original, and each factor has its documented properties.
 TEST(Flattened, TransformsAreFactored) {
     std::mt19937 random(1);
     std::normal_distribution<double> normal;

@@ -3,7 +3,7 @@
 #include "render/lights/light_limits.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <fmt/format.h>
@@ -68,8 +68,8 @@ TEST(Copies, EmissiveCopiesAreSampledAsLights) {
     const Orchard copies(emitter(3, 0.5f), true), nodes(emitter(3, 0.5f), false);
     RenderSettings settings = settings_for(32, 24, 4);
     settings.strategy = Strategy::light;
-    const Picture picture = render(copies.scene, settings, planes);
-    EXPECT_EQ(picture.frame.rgba, render(nodes.scene, settings, planes).frame.rgba);
+    const RenderedImage image = render(copies.scene, settings, planes);
+    EXPECT_EQ(image.frame.rgba, render(nodes.scene, settings, planes).frame.rgba);
     Renderer renderer({.threads = 1, .planes = {}});
     renderer.update(copies.scene, settings);
     EXPECT_EQ(renderer.info().emissive_triangles, 3 * 12);

@@ -3,7 +3,7 @@
 #include "render/compile/geometry_pool.h"
 #include "render/renderer.h"
 #include "scene/geometry/arena_geometry.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -44,9 +44,9 @@ Scene scene_with(const GeometryPtr& shape, const Material& material) {
     Scene scene;
     Material dressed = material;
     dressed.base_color_texture.texture =
-        add_texture(scene, float_picture(2, 2, std::vector<Vec3>{{1, 0.5f, 0.2f}, {0.3f, 1, 0.4f}, {0.5f, 0.2f, 1}, {1, 1, 1}}));
+        add_texture(scene, float_image(2, 2, std::vector<Vec3>{{1, 0.5f, 0.2f}, {0.3f, 1, 0.4f}, {0.5f, 0.2f, 1}, {1, 1, 1}}));
     dressed.base_color_texture.uv_set = 3;
-    dressed.normal_texture.texture = add_texture(scene, float_picture(1, 1, std::vector<Vec3>{{0.6f, 0.5f, 0.9f}}));
+    dressed.normal_texture.texture = add_texture(scene, float_image(1, 1, std::vector<Vec3>{{0.6f, 0.5f, 0.9f}}));
     const auto twice = [&](const GeometryPtr& geometry, float y, float size) {
         const Id<Mesh> mesh = scene.meshes.add({"", {{geometry, scene.materials.add(dressed)}}});
         for (const float x : {-1.1f, 1.1f}) {

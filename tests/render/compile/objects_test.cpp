@@ -1,7 +1,7 @@
 // Equivalent descriptions of a scene give the same image: mirrored or not, instanced or flat, with a neutral normal map.
 #include "core/math.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -66,11 +66,11 @@ void light_and_look(Scene& scene) {
 
 constexpr PlaneSet guides{.albedo = true, .normal = true, .depth = true};
 
-void expect_same_picture(const Scene& a, const Scene& b, const std::string& what) {
+void expect_same_render(const Scene& a, const Scene& b, const std::string& what) {
     RenderSettings settings = settings_for(24, 24, 32);
-    const Picture first = render(a, settings, guides);
+    const RenderedImage first = render(a, settings, guides);
     settings.seed = 7;
-    const Picture other = render(b, settings, guides);
+    const RenderedImage other = render(b, settings, guides);
     EXPECT_TRUE(same_means(first.blocks(8, 8), other.blocks(8, 8), sidak(significance, 12))) << what;
     // First-hit data of a sample are equal up to rounding, except where rounding moved an edge.
     settings.seed = 0;
@@ -93,7 +93,7 @@ TEST(Objects, TransformedNodesEqualTransformedTriangles) {
             place(by_triangles, transformed(dome(), t), material);
             light_and_look(by_node);
             light_and_look(by_triangles);
-            expect_same_picture(by_node, by_triangles, "placed by its node");
+            expect_same_render(by_node, by_triangles, "placed by its node");
         }
 }
 
@@ -110,7 +110,7 @@ TEST(Objects, InstancesEqualCopies) {
         }
         light_and_look(instances);
         light_and_look(copies);
-        expect_same_picture(instances, copies, "instanced");
+        expect_same_render(instances, copies, "instanced");
     }
 }
 
@@ -123,11 +123,11 @@ TEST(Objects, FlatNormalMapChangesNothing) {
         Scene mapped, plain;
         Material material = plastic(0.3f);
         place(plain, geometry, material, t);
-        material.normal_texture.texture = add_texture(mapped, float_picture(1, 1, std::vector<Vec3>{{0.5f, 0.5f, 1}}));
+        material.normal_texture.texture = add_texture(mapped, float_image(1, 1, std::vector<Vec3>{{0.5f, 0.5f, 1}}));
         place(mapped, geometry, material, t);
         light_and_look(plain);
         light_and_look(mapped);
-        expect_same_picture(mapped, plain, "flat normal map");
+        expect_same_render(mapped, plain, "flat normal map");
     }
 }
 
@@ -139,16 +139,16 @@ TEST(Objects, NormalMapTurnsTheNormal) {
     g.tangents.assign(4, {1, 0, 0, 1});
     Scene scene;
     Material material = lambert(0.5f);
-    material.normal_texture.texture = add_texture(scene, float_picture(1, 1, std::vector<Vec3>{{1, 0.5f, 1}}));
+    material.normal_texture.texture = add_texture(scene, float_image(1, 1, std::vector<Vec3>{{1, 0.5f, 1}}));
     place(scene, shared(g), material);
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 3;
     place_light(scene, sun, aimed({0, 0, 0}, {-1, -1, 0}));
     scene.view = looking_down(1, 1);
-    const Picture picture = render(scene, settings_for(8, 8, 4), guides);
-    EXPECT_TRUE(is_mean(picture.whole(), 0.5 / std::numbers::pi * 3));
-    for (const Vec3& n : picture.frame.normal) EXPECT_LT(length(n - unit({1, 1, 0})), 1e-6f);
+    const RenderedImage image = render(scene, settings_for(8, 8, 4), guides);
+    EXPECT_TRUE(is_mean(image.whole(), 0.5 / std::numbers::pi * 3));
+    for (const Vec3& n : image.frame.normal) EXPECT_LT(length(n - unit({1, 1, 0})), 1e-6f);
 }
 
 } // namespace

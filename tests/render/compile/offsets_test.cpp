@@ -2,7 +2,7 @@
 // there is no noise: every lit pixel must be exact.
 #include "core/math.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>
@@ -34,15 +34,15 @@ View view_of(const Vec3& centre, float size, const Vec3& from) {
 
 // Every hit pixel shows albedo / pi times the sun's cosine with its own normal, and 0 where it faces away.
 void expect_exactly_lit(const Scene& scene, const Vec3& sun_direction, const std::string& what) {
-    const Picture picture = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
+    const RenderedImage image = render(scene, settings_for(48, 48, 1), {.normal = true, .depth = true});
     const Vec3d to_sun = normalize(to_double(sun_direction)) * -1.0;
     int wrong = 0, lit = 0;
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-        if (picture.frame.depth[i] == 0) continue;
-        const double cos = dot(to_double(picture.frame.normal[i]), to_sun);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        if (image.frame.depth[i] == 0) continue;
+        const double cos = dot(to_double(image.frame.normal[i]), to_sun);
         if (std::abs(cos) < 1e-4) continue; // the side depends on rounding
         const double expected = cos > 0 ? double(albedo) / std::numbers::pi * double(lux) * cos : 0;
-        wrong += std::abs(picture.pixels[i].x - expected) > 1e-5;
+        wrong += std::abs(image.pixels[i].x - expected) > 1e-5;
         lit += cos > 0;
     }
     EXPECT_GT(lit, 200) << what;

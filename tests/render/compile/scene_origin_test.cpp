@@ -3,7 +3,7 @@
 
 #include "core/math.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>

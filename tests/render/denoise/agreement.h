@@ -35,7 +35,7 @@ Difference relative_difference(std::span<const float> a, std::span<const float> 
 Denoised denoised(const Planes& planes, const DenoiseOptions& options, unsigned threads = 2);
 Denoised denoised(Denoiser& denoiser, const Planes& planes, const DenoiseOptions& options);
 
-// True if this machine supports the precision: asked of the processor, not of the code under test.
+// True if this machine supports the precision, by the processor's own flags, not by the code under test.
 bool has_bfloat16();
 
 } // namespace blush::test

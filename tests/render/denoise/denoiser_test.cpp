@@ -88,7 +88,7 @@ TEST(Denoiser, ThreadsDoNotChangeTheResult) {
     for (const unsigned threads : {2u, 5u}) EXPECT_EQ(denoised(planes, {}, threads).rgb, one.rgb);
 }
 
-// Sizes, networks and precisions in turn: memory contents of earlier calls must not matter.
+// Sizes, networks and precisions one after another: memory contents of earlier calls must have no effect.
 TEST(Denoiser, WarmEqualsCold) {
     Denoiser warm(BLUSH_WEIGHTS, 2);
     for (int round = 0; round < 2; round++)

@@ -2,9 +2,9 @@
 #include "tests/render/denoise/agreement.h"
 
 #include "core/files.h"
-#include "measure/stability/picture.h"
+#include "measure/stability/rendered_image.h"
 #include "measure/stability/scenes.h"
-#include "render/session/denoised_picture.h"
+#include "render/session/denoised_image.h"
 #include "tests/support/process.h"
 
 #include <algorithm>
@@ -56,12 +56,12 @@ TEST(DenoiserHostile, BadFeatures) {
 // threshold is the difference of two valid renders with different seeds.
 TEST(DenoiserHostile, DroppedSamplesDoNotSpread) {
     constexpr int side = 128, texels = 16, reach = 40;
-    const auto picture = [&](float odd_one, uint32_t seed) {
+    const auto image = [&](float odd_one, uint32_t seed) {
         std::vector<Vec3> values(texels * texels, Vec3{1, 1, 1});
         values[0] = {odd_one, odd_one, odd_one};
         Scene scene;
         Material material = stability::emitter(5, 0.7f);
-        material.emissive_texture.texture = stability::add_texture(scene, stability::float_picture(texels, texels, values));
+        material.emissive_texture.texture = stability::add_texture(scene, stability::float_image(texels, texels, values));
         stability::place(scene, stability::floor_quad(1), material);
         stability::constant_world(scene, 1);
         scene.view = stability::looking_down(1, 1);
@@ -69,7 +69,7 @@ TEST(DenoiserHostile, DroppedSamplesDoNotSpread) {
         settings.seed = seed;
         return stability::render_anything(scene, settings, {.albedo = true, .normal = true}).frame;
     };
-    const Frame sound = picture(1, 0), other = picture(1, 1), broken = picture(3e38f, 0);
+    const Frame sound = image(1, 0), other = image(1, 1), broken = image(3e38f, 0);
     EXPECT_EQ(sound.health.dropped(), 0);
     EXPECT_GT(broken.health.dropped(), 0);
     Denoiser denoiser(BLUSH_WEIGHTS, 2);

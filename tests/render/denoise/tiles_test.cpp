@@ -13,7 +13,7 @@ namespace {
 using namespace denoise;
 
 // True if the network input covers the receptive field of the part from `begin` to `end`, as far as the image extends.
-bool sees_enough(int begin, int end, int seen, int seen_size, int side) {
+bool covers_receptive_field(int begin, int end, int seen, int seen_size, int side) {
     return seen <= std::max(0, begin - unet_reach) && seen + seen_size >= std::min(side, end + unet_reach);
 }
 
@@ -33,8 +33,8 @@ TEST(Tiles, CoverEveryPixelOnceWithItsReceptiveField) {
                     EXPECT_LT(tile.top, tile.bottom);
                     EXPECT_EQ(tile.x % unet_side_multiple, 0);
                     EXPECT_EQ(tile.y % unet_side_multiple, 0);
-                    EXPECT_TRUE(sees_enough(tile.left, tile.right, tile.x, grid->width, width));
-                    EXPECT_TRUE(sees_enough(tile.top, tile.bottom, tile.y, grid->height, height));
+                    EXPECT_TRUE(covers_receptive_field(tile.left, tile.right, tile.x, grid->width, width));
+                    EXPECT_TRUE(covers_receptive_field(tile.top, tile.bottom, tile.y, grid->height, height));
                     for (int y = tile.top; y < tile.bottom; y++)
                         for (int x = tile.left; x < tile.right; x++) covered[size_t(y) * width + x]++;
                 }

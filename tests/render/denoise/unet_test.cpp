@@ -64,7 +64,7 @@ Image pooled(const Image& image) {
     return made;
 }
 
-Image doubled_and_joined(const Image& half, const Image& skip) {
+Image upsampled_and_concatenated(const Image& half, const Image& skip) {
     Image made(skip.width, skip.height, half.channels + skip.channels);
     for (int y = 0; y < made.height; y++)
         for (int x = 0; x < made.width; x++)
@@ -77,7 +77,7 @@ Image network(const Image& input, const UnetWeights& weights) {
     std::vector<Image> planes{input};
     for (int i = 0; i < unet_layer_count; i++) {
         const UnetLayer& layer = unet_layers[i];
-        const Image source = layer.skip < 0 ? planes[i] : doubled_and_joined(planes[i], planes[layer.skip]);
+        const Image source = layer.skip < 0 ? planes[i] : upsampled_and_concatenated(planes[i], planes[layer.skip]);
         const Image made = convolve(source, weights.layers[i]).result;
         planes.push_back(layer.pool ? pooled(made) : made);
     }

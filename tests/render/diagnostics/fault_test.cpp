@@ -1,6 +1,6 @@
 // Invalid samples are traced to their cause: by hand-made vertices for every place, and end to end.
 #include "render/diagnostics/fault_finder.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -11,7 +11,7 @@ using Kind = Fault::Kind;
 using Place = Fault::Place;
 
 // A valid vertex whose path escapes after `bounce` scatterings.
-ReplayedVertex sound_vertex(int bounce) {
+ReplayedVertex valid_vertex(int bounce) {
     ReplayedVertex v;
     v.bounce = bounce;
     v.path.ray = {{0, 0, 0}, {0, 0, 1}};
@@ -25,19 +25,19 @@ ReplayedVertex sound_vertex(int bounce) {
 }
 std::optional<Fault> fault(const ReplayedVertex& v) { return fault_at(v, SceneTables{}); }
 
-TEST(Fault, OfASoundVertexIsNone) { EXPECT_FALSE(fault(sound_vertex(0))); }
+TEST(Fault, OfAValidVertexIsNone) { EXPECT_FALSE(fault(valid_vertex(0))); }
 
 TEST(Fault, IsFoundInTheRay) {
-    ReplayedVertex v = sound_vertex(0);
+    ReplayedVertex v = valid_vertex(0);
     v.path.ray.direction.y = nan;
     EXPECT_EQ(fault(v), (Fault{Kind::nan, Place::camera, 0}));
-    v = sound_vertex(3);
+    v = valid_vertex(3);
     v.path.ray.origin.x = inf;
     EXPECT_EQ(fault(v), (Fault{Kind::infinite, Place::bsdf_sample, 3}));
 }
 
 TEST(Fault, IsFoundInLightAtInfinity) {
-    ReplayedVertex v = sound_vertex(2);
+    ReplayedVertex v = valid_vertex(2);
     v.step.emitted = {0, -1, 0};
     EXPECT_FALSE(fault(v)) << "not added";
     v.step.emits = true;
@@ -45,7 +45,7 @@ TEST(Fault, IsFoundInLightAtInfinity) {
 }
 
 TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
-    ReplayedVertex v = sound_vertex(1);
+    ReplayedVertex v = valid_vertex(1);
     v.step.connects = true;
     v.step.direct = {inf, 0, 0};
     EXPECT_FALSE(fault(v)) << "blocked";
@@ -62,7 +62,7 @@ TEST(Fault, IsFoundInTheLightSampleAndItsDensities) {
 }
 
 TEST(Fault, IsFoundInTheScatteredPath) {
-    ReplayedVertex v = sound_vertex(4);
+    ReplayedVertex v = valid_vertex(4);
     v.step.next.beta = {nan, 1, 1};
     v.step.next.pdf = 1;
     EXPECT_FALSE(fault(v)) << "the path ended there";
@@ -110,7 +110,7 @@ TEST(Fault, DoesNotPoisonTheErrorEstimate) {
     values[0] = {3e38f, 3e38f, 3e38f};
     Scene scene;
     Material material = emitter(5, 0.5f);
-    const Id<Texture> texture = add_texture(scene, float_picture(8, 8, values));
+    const Id<Texture> texture = add_texture(scene, float_image(8, 8, values));
     Texture unfiltered = *scene.textures.find(texture); // else its neighbours would be extremely bright but finite
     unfiltered.filter = Texture::Filter::nearest;
     scene.textures.set(texture, unfiltered);

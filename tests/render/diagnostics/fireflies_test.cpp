@@ -1,5 +1,5 @@
 // Fireflies: the worst samples are found, in an order that depends on the image only, and can be traced again.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Invalid inputs: unusable values are dropped, counted and reported, and the image stays finite.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -40,7 +40,7 @@ TEST(Health, OverflowingSamplesAreDroppedCountedAndRecorded) {
 TEST(Health, NonFiniteTexelsDoNotSpread) {
     for (const float bad : {nan, inf, -inf, -3.f}) {
         const ImagePtr image =
-            float_picture(2, 2, std::vector<Vec3>{{bad, bad, bad}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}});
+            float_image(2, 2, std::vector<Vec3>{{bad, bad, bad}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}});
         Scene colored, emitting, world;
         Material material = lambert(1);
         material.base_color_texture.texture = add_texture(colored, image);

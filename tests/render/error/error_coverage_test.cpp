@@ -7,7 +7,7 @@ namespace blush::test::TEST_FILE {
 namespace {
 
 Truth stored_truth(const std::string& scene) {
-    const Picture reference = read_reference(coverage_reference_file(scene)).mean;
+    const RenderedImage reference = read_reference(coverage_reference_file(scene)).mean;
     Truth truth;
     truth.mean = reference.pixels;
     for (const Vec3d& e : reference.errors) truth.variance.push_back({e.x * e.x, e.y * e.y, e.z * e.z});

@@ -4,8 +4,8 @@
 #include "render/film/film.h"
 #include "render/film/pilot_variance.h"
 #include "render/film/sample_allocation.h"
-#include "tests/render/picture.h"
 #include "tests/render/reference_scenes.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ TEST(Adaptive, IsUnbiasedWithFirefliesOnlyIfHalvesDecideForEachOther) {
 }
 
 TEST(Adaptive, EstimatedErrorIsTheTrueError) {
-    Moments stated_beyond_true; // squared, summed over a picture
+    Moments stated_beyond_true; // squared, summed over an image
     int64_t inside = 0;
     constexpr int64_t runs = 300;
     for (int64_t seed = 0; seed < runs; ++seed) {
@@ -234,7 +234,7 @@ TEST(Adaptive, HasTheMeanOfUniformSampling) {
 // no tile gets less than 3/4 of the samples, so no variance exceeds 4/3 of that of uniform sampling.
 TEST(Adaptive, MissedHighlightsCostNoMoreThanTheMinimumShareAllows) {
     const Scene scene = shipped_scene("veach-mis");
-    const Picture truth = read_reference(coverage_reference_file("veach-mis")).mean;
+    const RenderedImage truth = read_reference(coverage_reference_file("veach-mis")).mean;
     RenderSettings settings = coverage_settings();
     settings.spp = 256;
     const auto relmse_of = [&](bool adaptive) {

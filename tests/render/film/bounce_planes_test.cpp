@@ -1,5 +1,5 @@
 // Bounce planes: they sum to the beauty, hold the right light, and cost nothing if not requested.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cstdlib>
@@ -17,7 +17,7 @@ Frame render_planes(const Scene& scene, const RenderSettings& settings, int boun
     return renderer.resolve();
 }
 
-// Every float is rounded once: by at most 2^-24 of itself, planes and beauty alike; the rest is double precision.
+// Every float is rounded once: by at most 2^-24 of itself, in planes and beauty; the rest is double precision.
 void expect_same_up_to_rounding(double sum, double whole, const std::string& where) {
     EXPECT_NEAR(sum, whole, std::max(sum, whole) * 0x1.01p-23) << where;
 }

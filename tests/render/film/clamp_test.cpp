@@ -1,5 +1,5 @@
 // Clamping removes exactly the light that it reports, nothing else, and only if enabled.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {

@@ -1,7 +1,7 @@
 // An image depends on scene, settings and sample range only: not on threads, timing, or how the range was split.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -20,7 +20,7 @@ Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsign
 
 // Pixels, planes and statistics.
 void expect_same(const Frame& a, const Frame& b, const char* what) {
-    EXPECT_TRUE(same_picture(a, b)) << what;
+    EXPECT_TRUE(same_pixels(a, b)) << what;
     EXPECT_EQ(a.rays.total(), b.rays.total()) << what;
     EXPECT_EQ(a.error.relmse, b.error.relmse) << what;
     EXPECT_EQ(a.error.high, b.error.high) << what;
@@ -51,10 +51,10 @@ TEST(Determinism, IndependentNumbersDoNotDependOnThreadsAndSplits) {
 TEST(Samplers, AgreeInTheMeanAndDifferInNoise) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(32, 32, 64);
-    const Picture points = render(scene, settings);
+    const RenderedImage points = render(scene, settings);
     settings.sampler = SamplerType::random;
     settings.seed = 1;
-    const Picture numbers = render(scene, settings);
+    const RenderedImage numbers = render(scene, settings);
     EXPECT_TRUE(same_means(points.blocks(16, 16), numbers.blocks(16, 16)));
     EXPECT_LT(points.frame.error.rmse_high, numbers.frame.error.rmse_low);
 }
@@ -94,9 +94,9 @@ TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
 TEST(Determinism, SeedsAreIndependent) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(32, 32, 16);
-    const Picture a = render(scene, settings);
+    const RenderedImage a = render(scene, settings);
     settings.seed = 1;
-    const Picture b = render(scene, settings);
+    const RenderedImage b = render(scene, settings);
     // Otherwise their mean would be no better than one of them: the variance of a difference is the sum of both.
     double difference = 0, sum = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) {

@@ -1,5 +1,5 @@
 // A rendered region equals the same pixels of the whole image, and nothing else is rendered.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -26,7 +26,7 @@ void expect_crop(const Frame& part, const Frame& whole, const PixelRect& rendere
         }
 }
 
-TEST(RenderRegion, IsTheSamePixelsOfTheWholePicture) {
+TEST(RenderRegion, IsTheSamePixelsOfTheWholeImage) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(80, 48, 4);
     const Frame whole = render(scene, settings);

@@ -1,4 +1,4 @@
-// The pilot of path reuse: what it decides, that it does not depend on how the image is rendered, and that it biases nothing.
+// The pilot of path reuse: its decision, that the decision does not depend on how the image is rendered, and that it adds no bias.
 #include "render/film/reuse_pilot.h"
 
 #include "render/compile/expand_area_lights.h"
@@ -6,9 +6,9 @@
 #include "render/film/film_state.h"
 #include "render/film/reuse_choice.h"
 #include "render/integrator/kernel_settings.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <array>
@@ -109,7 +109,7 @@ TEST(ReusePilot, KnowsThatATextureCanMakeASurfaceLambertian) {
     Scene scene = shiny(plastic(0.3f));
     const std::array<Vec3, 1> texel{{{1, 1, 1}}};
     Material material = plastic(0.3f);
-    material.specular_texture.texture = add_texture(scene, float_picture(1, 1, texel));
+    material.specular_texture.texture = add_texture(scene, float_image(1, 1, texel));
     place(scene, sphere(false), material, at({3, 1, 0}));
     EXPECT_TRUE(decided(scene, automatic(64, 48, 4)).pilot);
 }
@@ -122,7 +122,7 @@ TEST(ReusePilot, FollowsASettingWithoutMeasuring) {
     EXPECT_TRUE(use.used && !use.pilot) << use.why;
 }
 
-// ---- what it does not depend on
+// ---- independence
 
 TEST(ReusePilot, DoesNotDependOnThreadsSeedStopRulesOrRegion) {
     const Scene scene = window_room();
@@ -166,7 +166,7 @@ TEST(ReusePilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
         renderer.update(next, settings);
         renderer.render(0, 4);
         EXPECT_EQ(line_of(renderer).pilot, decided(next, settings).pilot);
-        EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(next, settings, 4)));
+        EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(next, settings, 4)));
     }
 }
 
@@ -185,13 +185,13 @@ TEST(ReusePilot, DecidesOverAllSamplesButTheFirst) {
         RenderSettings settings = automatic(80, 48, 8), chosen = settings, shared = settings;
         chosen.reuse = size;
         shared.reuse = 8;
-        EXPECT_TRUE(same_picture(rendered(scene, settings, {{1, 7}}), rendered(scene, chosen, {{1, 7}}))) << size;
-        EXPECT_TRUE(same_picture(rendered(scene, settings, {{0, 1}}), rendered(scene, shared, {{0, 1}}))) << size;
+        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{1, 7}}), rendered(scene, chosen, {{1, 7}}))) << size;
+        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}}), rendered(scene, shared, {{0, 1}}))) << size;
         const Frame whole = rendered(scene, settings, {{0, 8}});
-        EXPECT_TRUE(same_picture(whole, rendered(scene, settings, {{0, 1}, {1, 7}}))) << size;
-        EXPECT_TRUE(same_picture(whole, rendered(scene, settings, {{0, 5}, {5, 3}}))) << size;
+        EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 1}, {1, 7}}))) << size;
+        EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 5}, {5, 3}}))) << size;
         settings.adaptive = true;
-        EXPECT_TRUE(same_picture(rendered(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered(scene, settings, {{0, 24}}))) << size;
+        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered(scene, settings, {{0, 24}}))) << size;
     }
 }
 
@@ -223,7 +223,7 @@ TEST(ReusePilot, IsSavedWithTheFilm) {
     EXPECT_EQ(state.reuse_pilot, line_of(whole).pilot);
     ASSERT_TRUE(continued.load_film(state));
     continued.render(3, 5);
-    EXPECT_TRUE(same_picture(continued.resolve(), whole.resolve()));
+    EXPECT_TRUE(same_pixels(continued.resolve(), whole.resolve()));
     // What another version of the program decided stays decided.
     state.reuse_pilot = PilotFigures{0.5, 0.5, 0.5, 1.2, 16};
     Renderer other({.threads = 2});
@@ -231,7 +231,7 @@ TEST(ReusePilot, IsSavedWithTheFilm) {
     ASSERT_TRUE(other.load_film(state));
     EXPECT_TRUE(line_of(other).used);
     other.render(3, 5);
-    EXPECT_FALSE(same_picture(other.resolve(), whole.resolve()));
+    EXPECT_FALSE(same_pixels(other.resolve(), whole.resolve()));
     RenderSettings fixed = settings;
     fixed.reuse = 1;
     other.update(scene, fixed);
@@ -258,7 +258,7 @@ TEST(ReusePilot, MergesRanges) {
     continued.update(scene, settings);
     ASSERT_TRUE(continued.load_film(*sum));
     continued.render(8, 4);
-    const Frame a = continued.resolve(), b = fresh_picture(scene, settings, 12);
+    const Frame a = continued.resolve(), b = fresh_image(scene, settings, 12);
     for (size_t i = 0; i < a.rgba.size(); ++i) ASSERT_NEAR(a.rgba[i], b.rgba[i], 1e-5f * (1 + b.rgba[i]));
 }
 

@@ -2,7 +2,7 @@
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr float plate_half = 0.25f, plate_height = 1, lamp_height = 2;
 
-void catch_shadows_with(Scene& scene, Id<Node> id) {
+void make_shadow_catcher(Scene& scene, Id<Node> id) {
     Node node = *scene.nodes.find(id);
     node.shadow_catcher = true;
     scene.nodes.set(id, node);
@@ -31,7 +31,7 @@ struct Stage {
         place(scene, floor_quad(plate_half), lambert({0.5f, 0.5f, 0.5f}), at({0, plate_height, 0}));
         place_light(scene, light, aimed({0, lamp_height, 0}, {0, -1, 0}));
         scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
-        catch_shadows_with(scene, floor);
+        make_shadow_catcher(scene, floor);
     }
     // Floor point of the ray through an image position in pixels.
     Vec3d on_floor(double x, double y, int width, int height) const {
@@ -203,15 +203,15 @@ TEST(ShadowCatcher, IsAnOrdinarySurfaceForNonCameraRays) {
     scene.view = looking({0, 1.2f, 3}, {0, 0.5f, 0}, 0.7f);
     RenderSettings settings = settings_for(32, 32, 1);
     const PlaneSet planes{.depth = true, .ids = true};
-    const auto picture = [&] {
+    const auto image = [&] {
         Renderer renderer({.threads = 1, .planes = planes});
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
         return renderer.resolve();
     };
-    const Frame plain = picture();
-    catch_shadows_with(scene, floor);
-    const Frame caught = picture();
+    const Frame plain = image();
+    make_shadow_catcher(scene, floor);
+    const Frame caught = image();
     int objects = 0;
     for (size_t i = 0; i < plain.object_id.size(); ++i) {
         if (plain.object_id[i] == floor.value) {
@@ -239,7 +239,7 @@ TEST(ShadowCatcher, DoesNotCatchTheShadowsOfCatchers) {
     }
     place_light(scene, bulb(), aimed({0, lamp_height, 0}, {0, -1, 0}));
     scene.view = looking({0, 0.9f, 0.01f}, {0, 0, 0}, 1.6f);
-    catch_shadows_with(scene, group); // and with it all below
+    make_shadow_catcher(scene, group); // and with it all below
     for (const float v : render(scene, settings_for(32, 32, 2)).rgba) ASSERT_EQ(v, 0);
 }
 

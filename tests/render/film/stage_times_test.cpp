@@ -1,5 +1,5 @@
-// The profile by stage: what a scene needs takes time, what it does not need takes none, and all of it is time of the threads.
-#include "tests/render/picture.h"
+// The profile by stage: stages that a scene needs take time, the others take none, and the sum is time of the threads.
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <chrono>

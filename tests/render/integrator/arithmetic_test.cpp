@@ -3,7 +3,7 @@
 #include "render/compile/render_scene.h"
 #include "render/integrator/estimator.h"
 #include "render/integrator/kernel_settings.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {

@@ -1,7 +1,7 @@
 // Projections, lenses and pixel filters, tested with objects of known size and position.
 #include "core/math.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {
@@ -36,14 +36,14 @@ TEST(Camera, PerspectiveShrinksWithDistance) {
 }
 
 // Right is right and up is up.
-TEST(Camera, PicturesAreNotMirrored) {
+TEST(Camera, ImagesAreNotMirrored) {
     Scene scene;
     scene.view = looking({0, 0, 5}, {0, 0, 0}, 1);
     scene.view.rotation = {};
     place(scene, quad({0.2f, 0.3f, 0}, {0.4f, 0.3f, 0}, {0.4f, 0.6f, 0}, {0.2f, 0.6f, 0}), unlit({1, 1, 1}));
-    const Picture picture = render(scene, settings_for(32, 32, 4));
-    EXPECT_GT(picture.region(16, 0, 16, 16).mean.x, 0);
-    for (const auto& [x, y] : {std::pair{0, 0}, {0, 16}, {16, 16}}) EXPECT_EQ(picture.region(x, y, 16, 16).mean.x, 0);
+    const RenderedImage image = render(scene, settings_for(32, 32, 4));
+    EXPECT_GT(image.region(16, 0, 16, 16).mean.x, 0);
+    for (const auto& [x, y] : {std::pair{0, 0}, {0, 16}, {16, 16}}) EXPECT_EQ(image.region(x, y, 16, 16).mean.x, 0);
 }
 
 // Columns of many colours, at `depth` from the camera, slightly tilted, so that edges cross pixels at all offsets.
@@ -82,10 +82,10 @@ TEST(Camera, BlurHasTheWidthOfTheConeOfLight) {
     scene.view.rotation = {};
     scene.view.lens.aperture_radius = float(radius);
     scene.view.lens.focus_distance = float(focus);
-    const Picture picture = render(scene, settings_for(64, 64, 64));
+    const RenderedImage image = render(scene, settings_for(64, 64, 64));
     const double blur = radius * std::abs(1 - focus / depth), pixel = 2.0 / 64;
     for (int x = 0; x < 64; ++x) {
-        const double centre = std::abs((x + 0.5) * pixel - 1), mean = picture.region(x, 0, 1, 64).mean.x;
+        const double centre = std::abs((x + 0.5) * pixel - 1), mean = image.region(x, 0, 1, 64).mean.x;
         EXPECT_TRUE(mean > 0 || centre > blur - pixel) << x;
         EXPECT_TRUE(mean == 0 || centre < blur + pixel + 0.01 * focus / depth) << x;
     }
@@ -121,12 +121,12 @@ TEST(Filter, HasItsWidth) {
         scene.view = looking_down(1, 1);
         RenderSettings settings = settings_for(20, 20, 256);
         settings.filter = filter;
-        const Picture picture = render(scene, settings);
+        const RenderedImage image = render(scene, settings);
         // The edge lies between pixels 10 and 11, half a pixel from both centres.
-        EXPECT_EQ(picture.region(9, 0, 1, 20).mean.x, 1);
-        EXPECT_EQ(picture.region(10, 0, 1, 20).mean.x == 1, reach <= 0.5);
-        EXPECT_EQ(picture.region(11, 0, 1, 20).mean.x == 0, reach <= 0.5);
-        EXPECT_EQ(picture.region(12, 0, 1, 20).mean.x, 0);
+        EXPECT_EQ(image.region(9, 0, 1, 20).mean.x, 1);
+        EXPECT_EQ(image.region(10, 0, 1, 20).mean.x == 1, reach <= 0.5);
+        EXPECT_EQ(image.region(11, 0, 1, 20).mean.x == 0, reach <= 0.5);
+        EXPECT_EQ(image.region(12, 0, 1, 20).mean.x, 0);
     }
 }
 

@@ -1,5 +1,5 @@
 // Closed rooms with uniform emission and albedo: light is reflected infinitely often, and its sum is known.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {

@@ -1,6 +1,6 @@
 // White furnace tests: in uniform light, a lossless object is invisible.
 #include "shading/energy.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>
@@ -50,7 +50,7 @@ TEST(Furnace, LosslessWhiteBodiesAreInvisible) {
     for (const Case& c : cases) EXPECT_TRUE(is_mean(ball(c.material), 1, sidak(significance, int64_t(cases.size())))) << c.name;
 }
 
-// Single scattering loses the light that a microfacet reflects onto others; how much, the boundary test below shows.
+// Single scattering loses the light that a microfacet reflects onto others; the boundary test below measures how much.
 TEST(Furnace, RoughBodiesLoseEnergyAndNeverGain) {
     Material thin = glass(0.6f, 1.5f);
     thin.thickness = 0;

@@ -1,6 +1,6 @@
 // Rendered tests of clear coats, sheen, thin films, anisotropic and translucent surfaces, and dispersive glass.
 #include "render/integrator/dispersion.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <numbers>
@@ -133,7 +133,7 @@ TEST(Layers, ClearCoatsDimEmissionBelow) {
 
 // Anisotropy along the tangents, and the same by a rotation from other tangents: highlights are long in this direction only.
 TEST(Layers, AnisotropyFollowsTheTangents) {
-    const auto picture = [](const Vec4& tangent, float rotation) {
+    const auto image = [](const Vec4& tangent, float rotation) {
         Scene scene;
         Material m = stretched(metal(0.25f), 0.9f);
         m.anisotropy_rotation_radians = rotation;
@@ -145,10 +145,10 @@ TEST(Layers, AnisotropyFollowsTheTangents) {
         return render(scene, settings_for(32, 32, 16)).blocks(8, 8); // four by four
     };
     const float quarter = std::numbers::pi_v<float> / 2;
-    const auto along_x = picture({1, 0, 0, 1}, 0);
-    EXPECT_TRUE(same_means(along_x, picture({0, 0, 1, 1}, quarter))); // the bitangent is cross(+Y, +Z) = +X
-    EXPECT_TRUE(same_means(along_x, picture({0, 0, 1, -1}, -quarter)));
-    EXPECT_FALSE(same_means(along_x, picture({0, 0, 1, 1}, 0)));
+    const auto along_x = image({1, 0, 0, 1}, 0);
+    EXPECT_TRUE(same_means(along_x, image({0, 0, 1, 1}, quarter))); // the bitangent is cross(+Y, +Z) = +X
+    EXPECT_TRUE(same_means(along_x, image({0, 0, 1, -1}, -quarter)));
+    EXPECT_FALSE(same_means(along_x, image({0, 0, 1, 1}, 0)));
     // Bright far along x, dark far across.
     EXPECT_GT(along_x[1 * 4 + 3].mean.x, 3 * along_x[3 * 4 + 1].mean.x);
 }
@@ -159,7 +159,7 @@ TEST(Layers, ClearCoatsHaveTheirOwnNormals) {
         Scene scene;
         Material m = coated(lambert(0), 0.2f);
         const Id<Texture> leaning =
-            add_texture(scene, float_picture(1, 1, std::vector<Vec3>{{0.75f, 0.5f, 0.93301f}})); // by 30 degrees to +X
+            add_texture(scene, float_image(1, 1, std::vector<Vec3>{{0.75f, 0.5f, 0.93301f}})); // by 30 degrees to +X
         if (coat_map) m.clearcoat_normal_texture.texture = leaning;
         if (base_map) m.normal_texture.texture = leaning;
         place(scene, brushed_quad(4), m);

@@ -1,7 +1,7 @@
 // Panes (thin smooth transmissive walls): light passes straight through, for every kind of light and every strategy
 // (render/integrator/thin_transmission.h).
 #include "tests/render/irradiance.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cmath>
@@ -167,11 +167,11 @@ TEST(Panes, AreShownByFirstHitPlanes) {
     Scene scene = floor_under_panes(0, {});
     const Id<Node> pane = place(scene, floor_quad(50, 0.25f), window_glass());
     sunlit(scene, {0.2f, -1, 0});
-    const Picture picture = render(scene, settings_for(8, 8, 16), {.normal = true, .depth = true, .ids = true});
-    for (size_t i = 0; i < picture.frame.object_id.size(); ++i) {
-        EXPECT_EQ(picture.frame.object_id[i], pane.value);
-        EXPECT_NEAR(picture.frame.depth[i], 0.25f, 1e-5f);
-        EXPECT_NEAR(picture.frame.normal[i].y, 1, 1e-5f);
+    const RenderedImage image = render(scene, settings_for(8, 8, 16), {.normal = true, .depth = true, .ids = true});
+    for (size_t i = 0; i < image.frame.object_id.size(); ++i) {
+        EXPECT_EQ(image.frame.object_id[i], pane.value);
+        EXPECT_NEAR(image.frame.depth[i], 0.25f, 1e-5f);
+        EXPECT_NEAR(image.frame.normal[i].y, 1, 1e-5f);
     }
 }
 

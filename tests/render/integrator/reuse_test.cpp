@@ -1,6 +1,6 @@
 // Path reuse keeps the mean of every part of an image, and changes only noise, whatever blocks the connections.
 #include "render/error/error_estimate.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Scene obstacle_room() {
     Scene scene;
     const std::array<Vec3, 4> texels{{{0.9f, 0, 0.4f}, {0.8f, 0.8f, 0.8f}, {0, 0, 0}, {0.5f, 0.9f, 0}}};
     Material checks = lambert(1);
-    checks.base_color_texture.texture = add_texture(scene, float_picture(2, 2, texels));
+    checks.base_color_texture.texture = add_texture(scene, float_image(2, 2, texels));
     place(scene, quad({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}), checks);
 
     Geometry bumpy = *quad({-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
@@ -74,7 +74,7 @@ Scene obstacle_room() {
     bumpy.tangents.assign(4, {1, 0, 0, 1});
     const std::array<Vec3, 4> normals{{{0.9f, 0.5f, 0.7f}, {0.3f, 0.6f, 0.8f}, {0.5f, 0.5f, 1}, {0.5f, 0.1f, 0.6f}}};
     Material mapped = lambert({0.7f, 0.7f, 0.5f});
-    mapped.normal_texture.texture = add_texture(scene, float_picture(2, 2, normals));
+    mapped.normal_texture.texture = add_texture(scene, float_image(2, 2, normals));
     place(scene, std::make_shared<const Geometry>(bumpy), mapped);
 
     place(scene, quad({-1, -1, 1}, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}), lambert({0.8f, 0.1f, 0.1f}));
@@ -140,9 +140,9 @@ TEST(PathReuse, KeepsTheLightOfAClosedSphere) {
 }
 
 double mean_square(const Scene& scene, RenderSettings settings) {
-    const Picture a = render(scene, settings);
+    const RenderedImage a = render(scene, settings);
     settings.seed += 1;
-    const Picture b = render(scene, settings);
+    const RenderedImage b = render(scene, settings);
     double sum = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(a.pixels[i].y - b.pixels[i].y, 2);
     return sum;
@@ -162,7 +162,7 @@ TEST(PathReuse, WorksAtTheFilmsBorder) {
     for (const auto& [width, height] : {std::pair{37, 19}, {3, 2}, {1, 1}}) {
         RenderSettings settings = settings_for(width, height, 16);
         settings.reuse = 16;
-        const Picture p = render(shipped_scene("cornell"), settings);
+        const RenderedImage p = render(shipped_scene("cornell"), settings);
         for (const Vec3d& pixel : p.pixels) EXPECT_GE(pixel.y, 0);
     }
 }

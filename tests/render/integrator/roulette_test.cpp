@@ -1,6 +1,6 @@
 // Statistics of Russian roulette, and the lab that evaluates it: unbiased rules pass, the two that darken the image do not.
 #include "measure/lab/roulette_comparison.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {

@@ -1,5 +1,5 @@
 // All strategies agree in the mean, block by block, on the shipped scenes; a biased one is detected.
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 namespace blush::test::TEST_FILE {

@@ -8,7 +8,7 @@ namespace {
 using namespace statistics;
 constexpr Vec3d up{0, 1, 0};
 
-ImagePtr two_texels(float left, float right) { return float_picture(2, 1, std::vector<Vec3>{{left, left, left}, {right, right, right}}); }
+ImagePtr two_texels(float left, float right) { return float_image(2, 1, std::vector<Vec3>{{left, left, left}, {right, right, right}}); }
 // White, opaque on the right half.
 ImagePtr half_opaque() {
     Image image;

@@ -1,6 +1,6 @@
 // Texture filtering in images: distant textures show their mean, and near ones do not change.
 #include "core/srgb.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Material checkered(Scene& scene, Material material, float half) {
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) texels.push_back((x / 8 + y / 8) % 2 ? bright : dark);
     TextureRef& ref = material.base_color_texture;
-    ref.texture = add_texture(scene, float_picture(64, 64, texels), Texture::Filter::linear);
+    ref.texture = add_texture(scene, float_image(64, 64, texels), Texture::Filter::linear);
     ref.scale = {half / 4, half / 4}; // eight squares are one image
     return material;
 }
@@ -36,18 +36,18 @@ Scene plain() {
 }
 
 constexpr int width = 96, height = 64;
-Picture draw(const Scene& scene, bool filter, int64_t spp) {
+RenderedImage draw(const Scene& scene, bool filter, int64_t spp) {
     Renderer renderer({.threads = 1, .planes = {}, .filter_textures = filter});
     renderer.update(scene, settings_for(width, height, spp));
     renderer.render(0, spp);
-    return picture_of(renderer);
+    return image_of(renderer);
 }
 
 double variance(const Measured& m) { return m.error.x * m.error.x + m.error.y * m.error.y + m.error.z * m.error.z; }
 
 TEST(TextureFilter, APlaneToTheHorizonShowsItsMeanWithoutNoise) {
     const Scene scene = plain();
-    const Picture filtered = draw(scene, true, 64), points = draw(scene, false, 64);
+    const RenderedImage filtered = draw(scene, true, 64), points = draw(scene, false, 64);
     // Six rows below the horizon: 700 m away and more, where half a pixel is four squares.
     const Measured far_filtered = filtered.region(0, height / 2 + 1, width, 5), far_points = points.region(0, height / 2 + 1, width, 5);
     EXPECT_TRUE(is_mean(far_filtered, mean_of_checks()));
@@ -87,7 +87,7 @@ Scene mirrored(bool curved) {
 
 TEST(TextureFilter, WorksBehindFlatMirrorsOnly) {
     const Scene flat = mirrored(false), curved = mirrored(true);
-    const auto far_part = [](const Picture& p) { return p.region(0, height / 2 + 1, width, 5); };
+    const auto far_part = [](const RenderedImage& p) { return p.region(0, height / 2 + 1, width, 5); };
     const Measured filtered = far_part(draw(flat, true, 16)), points = far_part(draw(flat, false, 16));
     EXPECT_TRUE(is_mean(filtered, mean_of_checks()));
     EXPECT_LT(variance(filtered), variance(points) / 100);

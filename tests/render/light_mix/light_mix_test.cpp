@@ -96,7 +96,7 @@ TEST(LightMix, MatchesARenderOfTheEditedLights) {
         Studio after = before;
         edit.edit(after);
         ASSERT_FALSE(renderer.update(after.scene, settings)) << edit.name;
-        const Picture mixed = picture_of(renderer), fresh = render(after.scene, settings);
+        const RenderedImage mixed = image_of(renderer), fresh = render(after.scene, settings);
         EXPECT_TRUE(same_means(mixed.blocks(16, 16), fresh.blocks(16, 16), sidak(significance, int64_t(std::size(mix_edits)))))
             << edit.name;
         EXPECT_FALSE(same_mean(mixed.whole(), render(before.scene, settings).whole())) << edit.name << " shows nothing";
@@ -224,7 +224,7 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
     for (Renderer* r : {&follows, &scatter_share}) EXPECT_FALSE(r->update(studio.scene, settings));
     follows.select_lights_by_mix();
     for (Renderer* r : {&follows, &scatter_share}) r->render(16, 80);
-    const Picture a = picture_of(follows), b = picture_of(scatter_share);
+    const RenderedImage a = image_of(follows), b = image_of(scatter_share);
     EXPECT_TRUE(same_means(a.blocks(32, 32), b.blocks(32, 32)));
     EXPECT_LT(a.frame.error.rmse_high, b.frame.error.rmse_low) << "selection by the mix must reduce the error";
     expect_planes_sum_to_beauty(a.frame, 0x1p-20, "aimed");
@@ -339,7 +339,7 @@ TEST(BakeMix, KeepsTheImageAndTheFilm) {
     for (size_t i = 0; i < mixed.rgba.size(); ++i) ASSERT_NEAR(after.rgba[i], mixed.rgba[i], 0x1p-20f * mixed.rgba[i]) << i;
     EXPECT_EQ(bake_mix(baked).scene, baked) << "baking twice changes nothing";
     // A fresh render of the baked scene equals the mix, which now has no channels.
-    const Picture fresh = render(baked, settings_for(32, 32, 96));
+    const RenderedImage fresh = render(baked, settings_for(32, 32, 96));
     Studio with_channels;
     with_channels.scene.mix = some_mix();
     EXPECT_TRUE(same_means(fresh.blocks(16, 16), render(with_channels.scene, settings_for(32, 32, 96)).blocks(16, 16)));

@@ -3,7 +3,7 @@
 #include "render/compile/render_scene.h"
 #include "render/compile/update_plan.h"
 #include "tests/render/irradiance.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -16,7 +16,7 @@ using statistics::sidak;
 using statistics::significance;
 
 // 8 bits, RGBA; alpha by texel.
-ImagePtr alpha_picture(int width, int height, std::initializer_list<uint8_t> alphas) {
+ImagePtr alpha_image(int width, int height, std::initializer_list<uint8_t> alphas) {
     Image image;
     image.width = width;
     image.height = height;
@@ -55,11 +55,11 @@ std::vector<Panel> panels() {
     }));
     all.push_back(panel("masked by texture", [](Scene& scene, Material& m, Geometry&) {
         m.alpha = Material::Alpha::mask;
-        m.base_color_texture.texture = add_texture(scene, alpha_picture(2, 2, {255, 0, 0, 255}));
+        m.base_color_texture.texture = add_texture(scene, alpha_image(2, 2, {255, 0, 0, 255}));
     }));
     all.push_back(panel("blended by texture", [](Scene& scene, Material& m, Geometry&) {
         m.alpha = Material::Alpha::blend;
-        m.base_color_texture.texture = add_texture(scene, alpha_picture(2, 1, {230, 40}));
+        m.base_color_texture.texture = add_texture(scene, alpha_image(2, 1, {230, 40}));
     }));
     all.push_back(panel("vertex alpha", [](Scene&, Material& m, Geometry& g) {
         m.alpha = Material::Alpha::blend;
@@ -70,8 +70,8 @@ std::vector<Panel> panels() {
         m.opacity = 0.8f;
         m.double_sided = true;
         const std::array<Vec3, 2> colors{Vec3{1, 0.2f, 0.1f}, Vec3{0.1f, 0.3f, 1}};
-        m.emissive_texture.texture = add_texture(scene, float_picture(2, 1, colors));
-        m.base_color_texture.texture = add_texture(scene, alpha_picture(1, 2, {250, 60}));
+        m.emissive_texture.texture = add_texture(scene, float_image(2, 1, colors));
+        m.base_color_texture.texture = add_texture(scene, alpha_image(1, 2, {250, 60}));
     }));
     return all;
 }
@@ -103,7 +103,7 @@ TEST(AlphaOfEmitters, DimsInProportion) {
         Material glow = emitter(4);
         glow.alpha = Material::Alpha::blend;
         if (textured)
-            glow.base_color_texture.texture = add_texture(scene, alpha_picture(1, 1, {102})); // 0.4
+            glow.base_color_texture.texture = add_texture(scene, alpha_image(1, 1, {102})); // 0.4
         else
             glow.opacity = 0.4f;
         place(scene, ceiling_quad(1, 2), glow);
@@ -119,7 +119,7 @@ TEST(AlphaOfEmitters, ScalesSelectionProbabilities) {
         Material glow = emitter(1);
         glow.alpha = Material::Alpha::blend;
         if (textured)
-            glow.base_color_texture.texture = add_texture(scene, alpha_picture(2, 1, {102, 0})); // 0.4 and 0
+            glow.base_color_texture.texture = add_texture(scene, alpha_image(2, 1, {102, 0})); // 0.4 and 0
         else
             glow.opacity = 0.2f;
         place(scene, ceiling_quad(1, 2), glow, at({5, 0, 0}));

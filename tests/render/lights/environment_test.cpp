@@ -1,7 +1,7 @@
 // Environment light: constant environments, maps of one bright texel, and what the camera sees of them.
 #include "core/math.h"
 #include "tests/render/irradiance.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 
 #include <numbers>
 
@@ -22,7 +22,7 @@ constexpr int map_width = 16, map_height = 8;
 Scene under_map(const std::vector<Vec3>& texels, float rotation_degrees) {
     Scene scene;
     scene.environment.kind = Environment::Kind::image;
-    scene.environment.image = float_picture(map_width, map_height, texels);
+    scene.environment.image = float_image(map_width, map_height, texels);
     scene.environment.intensity = 2;
     scene.environment.rotation_degrees = rotation_degrees;
     return scene;
@@ -150,7 +150,7 @@ TEST_F(Compensated, OnlyChangesMis) {
         on.spp = off.spp = 4;
         off.mis_compensation = false;
         const Scene scene = under(uneven(), 1);
-        EXPECT_EQ(same_picture(fresh_picture(scene, on, 4), fresh_picture(scene, off, 4)), strategy != Strategy::mis);
+        EXPECT_EQ(same_pixels(fresh_image(scene, on, 4), fresh_image(scene, off, 4)), strategy != Strategy::mis);
     }
 }
 
@@ -158,7 +158,7 @@ TEST_F(Compensated, AnEvenSkyTakesNoSamplesOfLamps) {
     const auto shadow_rays = [](const Scene& scene, bool compensates) {
         RenderSettings s = settings(compensates);
         s.spp = 4;
-        return fresh_picture(scene, s, 4).rays.shadow;
+        return fresh_image(scene, s, 4).rays.shadow;
     };
     EXPECT_EQ(shadow_rays(under(even(), 0), true), 0);
     EXPECT_GT(shadow_rays(under(even(), 0), false), 0);
@@ -173,13 +173,13 @@ TEST(Environment, HiddenFromTheCameraItStillLights) {
     scene.environment.visible_to_camera = false;
     place(scene, floor_quad(0.5f), lambert(0.5f));
     scene.view = looking_down(1, 1);
-    const Picture picture = render(scene, settings_for(16, 16, 16));
-    EXPECT_TRUE(is_mean(picture.region(4, 4, 8, 8), 0.5));
+    const RenderedImage image = render(scene, settings_for(16, 16, 16));
+    EXPECT_TRUE(is_mean(image.region(4, 4, 8, 8), 0.5));
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             const bool floor = x >= 4 && x < 12 && y >= 4 && y < 12;
-            EXPECT_EQ(picture.frame.rgba[size_t(4 * (16 * y + x) + 3)], floor ? 1 : 0);
-            EXPECT_TRUE(floor || picture.at(x, y) == (Vec3d{0, 0, 0}));
+            EXPECT_EQ(image.frame.rgba[size_t(4 * (16 * y + x) + 3)], floor ? 1 : 0);
+            EXPECT_TRUE(floor || image.at(x, y) == (Vec3d{0, 0, 0}));
         }
 }
 

@@ -192,7 +192,7 @@ std::vector<Measured> blocks(const Scene& scene, Strategy strategy, int64_t spp)
 }
 
 // Every light kind that scattered rays can hit, above a diffuse floor and a half-rough wall.
-Scene lit_by_everything(bool seen) {
+Scene with_all_kinds_of_lights(bool seen) {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.6f));
     place(scene, quad({-2, 0, -1}, {2, 0, -1}, {2, 2, -1}, {-2, 2, -1}), plastic(0.5f));
@@ -221,7 +221,7 @@ Scene lit_by_everything(bool seen) {
 }
 
 TEST(LightProfiles, StrategiesAgree) {
-    const Scene scene = lit_by_everything(true);
+    const Scene scene = with_all_kinds_of_lights(true);
     const auto mis = blocks(scene, Strategy::mis, 256);
     EXPECT_TRUE(same_means(mis, blocks(scene, Strategy::light, 256), sidak(significance, 2))) << "light";
     EXPECT_TRUE(same_means(mis, blocks(scene, Strategy::bsdf, 2048), sidak(significance, 2))) << "bsdf";

@@ -5,7 +5,7 @@
 #include "render/compile/render_scene.h"
 #include "render/integrator/light_sampling.h"
 #include "scene/affine.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <array>
@@ -191,7 +191,7 @@ TEST(LightSamples, OfAnImageFollowItsRadiance) {
     std::mt19937 bits{3};
     for (int i = 0; i < 16 * 8; ++i) texels.push_back(splat<float>(float(bits() % 1000) / 100));
     desk.scene.environment.kind = Environment::Kind::image;
-    desk.scene.environment.image = float_picture(16, 8, texels);
+    desk.scene.environment.image = float_image(16, 8, texels);
     desk.scene.environment.rotation_degrees = 40;
     desk.compile();
     expect_follows(desk, "image");

@@ -4,7 +4,7 @@
 #include "render/compile/render_scene.h"
 #include "shading/light.h"
 #include "tests/render/irradiance.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/many_lights.h"
 
@@ -248,7 +248,7 @@ TEST(LightTree, IsNearTheOracleWithTenThousandLights) {
 }
 
 // The same for rendered images. The uncertainty of the variance, from two seeds, is bounded by independent pixels.
-TEST(LightTree, PicturesOfTenThousandLightsAreNearTheOracle) {
+TEST(LightTree, ImagesOfTenThousandLightsAreNearTheOracle) {
     const ImageVariance v = image_variance(20, 64);
     EXPECT_LT(v.rendered, 3 * v.oracle) << "oracle " << v.oracle << ", rendered " << v.rendered;
     EXPECT_GT(v.power, 5 * v.rendered) << "power " << v.power << ", rendered " << v.rendered;

@@ -6,7 +6,7 @@
 #include "render/lights/light_tree.h"
 #include "render/lights/mesh_lights.h"
 #include "shading/light.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <cmath>
@@ -84,8 +84,8 @@ std::vector<Receiver<float>> receivers() {
     std::vector<Receiver<float>> all;
     for (const float distance : {0.3f, 1.05f, 1.5f, 3.f, 6.f, 40.f})
         for (int i = 0; i < 3; ++i) {
-            const Vec3 away = random.direction(), aside = random.direction();
-            all.push_back({away * distance, i == 0 ? Vec3{0, 0, 0} : i == 1 ? -away : aside});
+            const Vec3 away = random.direction(), lateral = random.direction();
+            all.push_back({away * distance, i == 0 ? Vec3{0, 0, 0} : i == 1 ? -away : lateral});
         }
     return all;
 }

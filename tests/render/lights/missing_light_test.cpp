@@ -3,7 +3,7 @@
 
 #include "render/compile/expanded_lights.h"
 #include "render/renderer.h"
-#include "tests/render/picture.h"
+#include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
 #include <gtest/gtest.h>

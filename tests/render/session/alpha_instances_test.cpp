@@ -1,6 +1,6 @@
 // Leaves of a tree: many instances of one mesh with stochastic alpha share their memory, and their opacities are independent.
 #include "tests/render/session/rich_project.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -47,10 +47,10 @@ TEST(AlphaInstances, ShareTheirMemory) {
 TEST(AlphaInstances, TransmitLightIndependently) {
     for (const int count : {2, 3}) {
         const Project project = leaves(test::quad_geometry(), count, 100);
-        const Frame picture = test::fresh_picture(project.scene, project.render, 16);
+        const Frame image = test::fresh_image(project.scene, project.render, 16);
         double sum = 0;
-        for (size_t i = 0; i < picture.rgba.size(); i += 4) sum += double(picture.rgba[i]);
-        const double pixels = double(picture.rgba.size() / 4), p = std::pow(0.5, count);
+        for (size_t i = 0; i < image.rgba.size(); i += 4) sum += double(image.rgba[i]);
+        const double pixels = double(image.rgba.size() / 4), p = std::pow(0.5, count);
         const double sigma = std::sqrt(p * (1 - p) / (16 * pixels)); // each sample sees the sky or does not
         EXPECT_NEAR(sum / pixels, p, 5 * sigma) << count << " leaves";
     }

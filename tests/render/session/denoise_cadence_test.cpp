@@ -28,7 +28,7 @@ struct Bench {
 
     void offer(const Source& source) { cadence.offer(source, now); }
     // Runs all due tasks.
-    void denoise_what_is_due(const Source& source) {
+    void denoise_if_due(const Source& source) {
         for (auto decision = cadence.next(now); decision.quality; decision = cadence.next(now)) {
             const double took = seconds[size_t(*decision.quality)] * source.megapixels;
             done.push_back({now, *decision.quality, source.samples});
@@ -41,7 +41,7 @@ struct Bench {
         for (int i = 1; i <= frames; ++i) {
             const Source source{image, i, 1, i == frames, 1};
             offer(source);
-            denoise_what_is_due(source);
+            denoise_if_due(source);
             now += 0.1;
         }
     }
@@ -53,7 +53,7 @@ TEST(DenoiseCadence, NothingIsDueBeforeTheFirstFrame) {
     EXPECT_TRUE(std::isinf(cadence.next(0).wait));
 }
 
-TEST(DenoiseCadence, TheFirstFullPictureIsDenoisedAtOnceByTheSmallNetwork) {
+TEST(DenoiseCadence, TheFirstFullImageIsDenoisedAtOnceByTheSmallNetwork) {
     Bench bench;
     for (uint64_t image = 1; image < 6; ++image) {
         bench.done.clear();
@@ -78,11 +78,11 @@ TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
             const bool last = i + 1 == bench.done.size();
             if (i == 0 || last) continue; // those two are guaranteed at any cost
             if (d.samples >= DenoiseCadence::renewal_growth * bench.done[i - 1].samples) {
-                EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+                EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "image " << i << " of " << slowness;
                 continue;
             }
             EXPECT_GE(d.at, bench.done[i - 1].at + DenoiseCadence::min_interval - 1e-9);
-            EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "picture " << i << " of " << slowness;
+            EXPECT_LE(spent, DenoiseCadence::time_share * (d.at - begin) + 1e-9) << "image " << i << " of " << slowness;
         }
     }
 }
@@ -109,7 +109,7 @@ TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
         return decision.pauses_rendering;
     };
     EXPECT_TRUE(pauses(0, 0.9, 1, 0)) << "the first one, whose time is not known";
-    EXPECT_FALSE(pauses(0, 33, 1, 0)) << "the first one of a large picture";
+    EXPECT_FALSE(pauses(0, 33, 1, 0)) << "the first one of a large image";
     EXPECT_TRUE(pauses(0.2, 0.9, 2, 1));
     EXPECT_FALSE(pauses(1.5, 0.9, 2, 1)) << "on a slow machine";
     EXPECT_FALSE(pauses(0.2, 0.9, 1, 100)) << "the large network, used after a while without edits";
@@ -132,7 +132,7 @@ TEST(DenoiseCadence, EnabledLateTheFastQualityComesFirst) {
     const Source source{1, 64, 1, true, 1};
     bench.offer(source);
     bench.now += 3600;
-    bench.denoise_what_is_due(source);
+    bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 2u);
     EXPECT_EQ(bench.done[0].quality, fast);
     EXPECT_EQ(bench.done[1].quality, high);
@@ -142,14 +142,14 @@ TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
     Bench bench;
     const Source source{1, 5, 1, false, 1};
     bench.offer(source);
-    bench.denoise_what_is_due(source);
+    bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 1u);
     for (int i = 0; i < 100; ++i) {
         const double wait = bench.cadence.next(bench.now).wait;
         if (std::isinf(wait)) break;
         ASSERT_GT(wait, 0);
         bench.now += wait + 1e-6;
-        bench.denoise_what_is_due(source);
+        bench.denoise_if_due(source);
     }
     ASSERT_EQ(bench.done.size(), 2u) << "no further runs while paused";
     EXPECT_EQ(bench.done[1].quality, base);
@@ -168,17 +168,17 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
         const bool fits = megapixel_seconds / 16 < DenoiseCadence::frame_seconds;
         EXPECT_EQ(bench.cadence.answers_within_a_frame(), fits);
         EXPECT_EQ(bench.cadence.next(bench.now).quality.has_value(), fits);
-        bench.denoise_what_is_due(coarse);
+        bench.denoise_if_due(coarse);
         EXPECT_FALSE(bench.cadence.answers_within_a_frame()) << "only the first frame of an image is waited for";
     }
 }
 
-TEST(DenoiseCadence, AfterACoarsePictureTheFirstFullOneIsDueAtOnce) {
+TEST(DenoiseCadence, AfterACoarseImageTheFirstFullOneIsDueAtOnce) {
     Bench bench;
     bench.render(1, 3);
     const Source coarse{2, 1, 4, false, 1.0 / 16}, full{2, 1, 1, false, 1};
     bench.offer(coarse);
-    bench.denoise_what_is_due(coarse);
+    bench.denoise_if_due(coarse);
     bench.offer(full);
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }

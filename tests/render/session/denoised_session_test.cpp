@@ -3,7 +3,7 @@
 
 #include "tests/render/session/recording_session.h"
 #include "tests/support/eventually.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -23,9 +23,9 @@ using State = SessionStatus::State;
 using test::checksum;
 using test::Event;
 using test::eventually;
-using test::fresh_picture;
+using test::fresh_image;
 using test::RecordingSession;
-using test::same_picture;
+using test::same_pixels;
 
 // Returns each image unchanged, and records its calls.
 class StandIn {
@@ -72,7 +72,7 @@ private:
     std::vector<Call> calls_;
 };
 
-Result<std::optional<Denoised>> wait_until_unwanted(const std::function<bool()>& wanted) {
+Result<std::optional<Denoised>> wait_until_cancelled(const std::function<bool()>& wanted) {
     EXPECT_TRUE(eventually([&] { return !wanted(); })) << "denoising is not cancelled";
     return std::optional<Denoised>();
 }
@@ -104,7 +104,7 @@ test::EventTest ends(uint64_t revision) {
     return [=](const Event& e) { return e.denoised && e.denoised->revision == revision && e.denoised->quality == DenoiseQuality::high; };
 }
 
-bool shows(const DenoisedPicture& denoised, const Frame& frame) {
+bool shows(const DenoisedImage& denoised, const Frame& frame) {
     if (denoised.denoised.rgb.size() != frame.rgba.size() / 4 * 3) return false;
     for (size_t i = 0; i < frame.rgba.size() / 4; ++i)
         if (!std::equal(&frame.rgba[4 * i], &frame.rgba[4 * i] + 3, &denoised.denoised.rgb[3 * i])) return false;
@@ -132,7 +132,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     ASSERT_TRUE(last.denoised);
     EXPECT_EQ(last.denoised->samples, 16);
     EXPECT_TRUE(shows(*last.denoised, *last.frame));
-    EXPECT_TRUE(same_picture(*last.frame, fresh_picture(project.scene, project.render, 16))) << "frames are unchanged";
+    EXPECT_TRUE(same_pixels(*last.frame, fresh_image(project.scene, project.render, 16))) << "frames are unchanged";
     const auto calls = networks.calls();
     EXPECT_EQ(calls.front().quality, DenoiseQuality::fast);
     EXPECT_EQ(calls.back().quality, DenoiseQuality::high);
@@ -146,7 +146,7 @@ TEST(DenoisedSession, TheFirstIsFastAndTheLastIsTheBestOfTheLastFrame) {
     }
 }
 
-TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
+TEST(DenoisedSession, EnabledWhenCompleteItAddsAnImageAndResetsNothing) {
     StandIn networks;
     RecordingSession session(2, {}, networks.function());
     submit(session, 1, small_project());
@@ -159,7 +159,7 @@ TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
     EXPECT_EQ(calls, 2u) << "the fast quality first, then the best";
 
     for (int i = 0; i < 50; ++i) session->want_denoised(i % 2 == 0);
-    EXPECT_EQ(session->pictures().denoised, after.denoised) << "it is kept for toggling on again";
+    EXPECT_EQ(session->images().denoised, after.denoised) << "it is kept for toggling on again";
     session->want_denoised(true);
     // Any work for it would have been done before the next image.
     submit(session, 2, lit_by(small_project(), 3));
@@ -172,7 +172,7 @@ TEST(DenoisedSession, EnabledWhenCompleteItAddsAPictureAndResetsNothing) {
         }
 }
 
-TEST(DenoisedSession, DenoisedPicturesBelongToTheImageOfTheirFrame) {
+TEST(DenoisedSession, DenoisedImagesBelongToTheImageOfTheirFrame) {
     const Project project = small_project(6);
     constexpr uint64_t last = 12;
     StandIn networks;
@@ -226,7 +226,7 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
         // The first run would never end by itself; the next ones finish at once.
         if (call > 1) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
@@ -239,7 +239,7 @@ TEST(DenoisedSession, AnEditCancelsDenoising) {
         if (e.denoised) { EXPECT_EQ(e.denoised->revision, 2u); }
 }
 
-TEST(DenoisedSession, RenderingPausesForTheFirstDenoisedPicture) {
+TEST(DenoisedSession, RenderingPausesForTheFirstDenoisedImage) {
     StandIn networks;
     std::atomic<bool> begun{false}, may_end{false};
     networks.instead = [&](size_t call, const std::function<bool()>&) {
@@ -255,11 +255,11 @@ TEST(DenoisedSession, RenderingPausesForTheFirstDenoisedPicture) {
     EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
     // A batch that has begun is finished.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const int64_t samples = session->pictures().frame->samples;
+    const int64_t samples = session->images().frame->samples;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    EXPECT_EQ(session->pictures().frame->samples, samples);
+    EXPECT_EQ(session->images().frame->samples, samples);
     may_end = true;
-    EXPECT_TRUE(eventually([&] { return session->pictures().frame->samples > samples; })) << "rendering does not resume";
+    EXPECT_TRUE(eventually([&] { return session->images().frame->samples > samples; })) << "rendering does not resume";
 }
 
 TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
@@ -267,7 +267,7 @@ TEST(DenoisedSession, ToggledOffItStopsInTheMiddle) {
     std::atomic<bool> begun{false};
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
@@ -282,7 +282,7 @@ TEST(DenoisedSession, EndsInTheMiddleOfDenoising) {
         StandIn networks;
         std::atomic<int> ended{0};
         networks.instead = [&](size_t, const std::function<bool()>& wanted) {
-            auto nothing = wait_until_unwanted(wanted);
+            auto nothing = wait_until_cancelled(wanted);
             ++ended;
             return nothing;
         };
@@ -315,7 +315,7 @@ TEST(DenoisedSession, RendersIfDenoisingFails) {
         const Event done = session.wait_for(2, State::complete);
         EXPECT_TRUE(done.status.message.empty());
         EXPECT_FALSE(done.status.denoiser_failure.empty()) << "still so";
-        EXPECT_TRUE(same_picture(*done.frame, fresh_picture(lit_by(project, 3).scene, project.render, 8)));
+        EXPECT_TRUE(same_pixels(*done.frame, fresh_image(lit_by(project, 3).scene, project.render, 8)));
         session.shut_down();
         EXPECT_EQ(networks.calls().size(), 1u) << "not tried again";
     }
@@ -388,9 +388,9 @@ TEST(DenoisedSession, DenoiserMemoryIsFreedWhenDisabled) {
     EXPECT_EQ(made.size(), 1u) << "toggling off and on keeps the denoiser";
 }
 
-TEST(DenoisedSession, PublishedPicturesNeverChange) {
+TEST(DenoisedSession, PublishedImagesNeverChange) {
     const Project project = small_project(12);
-    const auto sum = [](const DenoisedPicture& p) {
+    const auto sum = [](const DenoisedImage& p) {
         double total = 0;
         for (const float v : p.denoised.rgb) total += double(v);
         return total;
@@ -413,7 +413,7 @@ TEST(DenoisedSession, PublishedPicturesNeverChange) {
         }
     }
     EXPECT_GE(held.size(), 5u);
-    for (const auto& [picture, before] : held) EXPECT_EQ(sum(*picture), before);
+    for (const auto& [image, before] : held) EXPECT_EQ(sum(*image), before);
     for (const auto& [frame, before] : sources) EXPECT_EQ(checksum(*frame), before);
 }
 
@@ -428,8 +428,8 @@ TEST(DenoisedSession, ManyThreadsMayToggleSubmitAndRead) {
                 session->want_denoised(i % 5 != 0);
                 submit(session, 1 + 150 * t + i, lit_by(project, float(1 + i)));
                 session->pause(i % 7 == 0);
-                const Pictures pictures = session->pictures();
-                if (pictures.denoised) { EXPECT_LE(pictures.denoised->samples, pictures.frame->samples); }
+                const Images images = session->images();
+                if (images.denoised) { EXPECT_LE(images.denoised->samples, images.frame->samples); }
             }
         });
     for (std::thread& caller : callers) caller.join();
@@ -448,7 +448,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     networks.instead = [&](size_t, const std::function<bool()>& wanted) {
         if (!slow) return Result<std::optional<Denoised>>(std::optional<Denoised>(Denoised{}));
         begun = true;
-        return wait_until_unwanted(wanted);
+        return wait_until_cancelled(wanted);
     };
     RecordingSession session(2, {}, networks.function());
     session->want_denoised(true);
@@ -459,7 +459,7 @@ TEST(DenoisedSession, AWithheldFrameIsShownWhenDenoisingIsDisabled) {
     submit(session, 2, lit_by(project, 3));
     EXPECT_TRUE(eventually([&] { return begun.load(); })) << "denoising does not begin";
     session->want_denoised(false);
-    EXPECT_EQ(session->pictures().frame->revision, 2u);
+    EXPECT_EQ(session->images().frame->revision, 2u);
 }
 
 } // namespace

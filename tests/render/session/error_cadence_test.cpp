@@ -14,10 +14,10 @@ struct Bench {
     int64_t samples = 0;
     int estimates = 0;
 
-    ErrorCadence::Picture picture(bool wanted = false) const { return {samples, pixels, sample_seconds * double(samples), wanted}; }
+    ErrorCadence::Source image(bool wanted = false) const { return {samples, pixels, sample_seconds * double(samples), wanted}; }
     void publish(bool wanted = false) {
-        if (!cadence.due(picture(wanted))) return;
-        cadence.record(picture(wanted), estimate_seconds);
+        if (!cadence.due(image(wanted))) return;
+        cadence.record(image(wanted), estimate_seconds);
         ++estimates;
     }
     void render(int count) {
@@ -33,7 +33,7 @@ TEST(ErrorCadence, TakesAtMostItsShareOfTheTime) {
     bench.render(2); // the cost of an estimate is known after the first one
     for (int i = 0; i < 1000; ++i) {
         bench.render(1);
-        const double allowed = ErrorCadence::time_share * bench.picture().seconds;
+        const double allowed = ErrorCadence::time_share * bench.image().seconds;
         EXPECT_LE(bench.cadence.spent(), std::max(estimate_seconds, allowed + 1e-12)) << bench.samples;
     }
     EXPECT_GT(bench.estimates, 10) << "and uses most of its share";

@@ -5,7 +5,7 @@
 #include "scene/document/scene_selection.h"
 #include "scene/geometry/tangents.h"
 #include "tests/render/session/rich_project.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/random_edits.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ namespace blush::TEST_FILE {
 namespace {
 
 using test::all_planes;
-using test::fresh_picture;
-using test::same_picture;
+using test::fresh_image;
+using test::same_pixels;
 
 constexpr int64_t samples = 2;
 
@@ -36,9 +36,9 @@ public:
         } else {
             ++kept_;
         }
-        picture_ = renderer_.resolve();
+        image_ = renderer_.resolve();
     }
-    const Frame& picture() const { return picture_; }
+    const Frame& image() const { return image_; }
     // The project that the film was rendered from; it may differ in the light mix only.
     const Project& base() const { return base_; }
     // Number of updates that kept the film.
@@ -47,7 +47,7 @@ public:
 
 private:
     Renderer renderer_{all_planes()};
-    Frame picture_;
+    Frame image_;
     Project base_;
     int kept_ = 0;
 };
@@ -66,11 +66,10 @@ Edit next_edit(test::Rng& rng, const Project& project, int step, Tried& tried) {
 
 TEST(RichProject, IsInView) {
     const Project project = test::rich_project();
-    const Frame picture = fresh_picture(project.scene, project.render, samples);
-    EXPECT_GE(std::set<uint32_t>(picture.object_id.begin(), picture.object_id.end()).size(), 8u)
-        << "edits of invisible objects test nothing";
-    EXPECT_GE(std::set<uint32_t>(picture.material_id.begin(), picture.material_id.end()).size(), 6u);
-    EXPECT_EQ(picture.health.dropped(), 0);
+    const Frame image = fresh_image(project.scene, project.render, samples);
+    EXPECT_GE(std::set<uint32_t>(image.object_id.begin(), image.object_id.end()).size(), 8u) << "edits of invisible objects test nothing";
+    EXPECT_GE(std::set<uint32_t>(image.material_id.begin(), image.material_id.end()).size(), 6u);
+    EXPECT_EQ(image.health.dropped(), 0);
 }
 
 class RandomEdits : public ::testing::TestWithParam<unsigned> {};
@@ -79,8 +78,8 @@ TEST_P(RandomEdits, RenderLikeAFreshSceneAndUndoToTheFirstImage) {
     test::Rng rng(GetParam());
     Document document(test::rich_project());
     Updated updated(document.project());
-    const Frame first = updated.picture();
-    ASSERT_TRUE(same_picture(first, fresh_picture(document.project().scene, document.project().render, samples)));
+    const Frame first = updated.image();
+    ASSERT_TRUE(same_pixels(first, fresh_image(document.project().scene, document.project().render, samples)));
 
     Tried tried{};
     for (int step = 0; step < 270; ++step) {
@@ -95,7 +94,7 @@ TEST_P(RandomEdits, RenderLikeAFreshSceneAndUndoToTheFirstImage) {
         fresh.update(updated.base().scene, updated.base().render);
         fresh.render(project.render.first_sample, samples);
         EXPECT_FALSE(fresh.update(project.scene, project.render)) << what;
-        ASSERT_TRUE(same_picture(updated.picture(), fresh.resolve())) << "step " << step << ": " << what;
+        ASSERT_TRUE(same_pixels(updated.image(), fresh.resolve())) << "step " << step << ": " << what;
         EXPECT_EQ(updated.info().kernel, fresh.info().kernel) << what;
         EXPECT_EQ(updated.info().triangles, fresh.info().triangles) << what;
         EXPECT_EQ(updated.info().emissive_triangles, fresh.info().emissive_triangles) << what;
@@ -104,7 +103,7 @@ TEST_P(RandomEdits, RenderLikeAFreshSceneAndUndoToTheFirstImage) {
     for (size_t kind = 0; kind < edit_kinds; ++kind) EXPECT_GT(tried[kind], 0) << "kind " << kind << " of edit was never tried";
 
     while (document.undo()) updated.follow(document.project());
-    EXPECT_TRUE(same_picture(updated.picture(), first));
+    EXPECT_TRUE(same_pixels(updated.image(), first));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
@@ -113,21 +112,21 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Values(1u, 2u));
 TEST(Renderer, FollowsAnimationsBitForBit) {
     Project project = test::rich_project();
     Updated updated(project);
-    const Frame first = updated.picture();
+    const Frame first = updated.image();
     for (const auto& [id, clip] : Table<Clip>(project.scene.clips))
         for (const float t : {0.f, 0.7f, 1.9f, 0.7f}) {
             project.scene = with_scene_selection(project.scene, {.clip = id, .seconds = t});
             updated.follow(project);
-            EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << clip.name << " at " << t;
-            EXPECT_EQ(same_picture(updated.picture(), first), t == 0 && clip.name == "Swing") << clip.name << " at " << t;
+            EXPECT_TRUE(same_pixels(updated.image(), fresh_image(project.scene, project.render, samples))) << clip.name << " at " << t;
+            EXPECT_EQ(same_pixels(updated.image(), first), t == 0 && clip.name == "Swing") << clip.name << " at " << t;
         }
     project.scene = with_scene_selection(project.scene, {.scene = 1});
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples)));
-    EXPECT_FALSE(same_picture(updated.picture(), first)) << "the other scene looks the same";
+    EXPECT_TRUE(same_pixels(updated.image(), fresh_image(project.scene, project.render, samples)));
+    EXPECT_FALSE(same_pixels(updated.image(), first)) << "the other scene looks the same";
     project.scene = with_scene_selection(project.scene, {});
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), first));
+    EXPECT_TRUE(same_pixels(updated.image(), first));
 }
 
 // Replaces each geometry by a copy modified by `change`.
@@ -163,11 +162,11 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
     };
     restyle([](Material&) {});
     Updated updated(project);
-    const Frame plain = updated.picture();
+    const Frame plain = updated.image();
     const auto expect_tangents = [&](const char* what) {
         updated.follow(project);
-        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << what;
-        EXPECT_FALSE(same_picture(updated.picture(), plain)) << what;
+        EXPECT_TRUE(same_pixels(updated.image(), fresh_image(project.scene, project.render, samples))) << what;
+        EXPECT_FALSE(same_pixels(updated.image(), plain)) << what;
         size_t made = 0;
         const Scene prepared = with_geometries(project.scene, [&](const MeshPart& part, Geometry& g) {
             const int set = tangent_uv_set(project.scene, part);
@@ -176,7 +175,7 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
             ++made;
         });
         EXPECT_GT(made, 2u) << what;
-        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(prepared, project.render, samples))) << what;
+        EXPECT_TRUE(same_pixels(updated.image(), fresh_image(prepared, project.render, samples))) << what;
     };
     restyle([](Material& m) { m.anisotropy = 0.8f; });
     expect_tangents("stretched");
@@ -192,12 +191,12 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
         if (!g.normals.empty() && g.has_uv_set(0)) add_tangents(g, 0);
     });
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << "tangents of the first UV set";
+    EXPECT_TRUE(same_pixels(updated.image(), fresh_image(project.scene, project.render, samples))) << "tangents of the first UV set";
     project.scene =
         with_geometries(project.scene, [](const MeshPart& part, Geometry& g) { g = *without_generated_tangents(part.geometry); });
     restyle([](Material&) {});
     updated.follow(project);
-    EXPECT_TRUE(same_picture(updated.picture(), plain));
+    EXPECT_TRUE(same_pixels(updated.image(), plain));
 }
 
 // Far from the origin a scene has another render origin: moving there and back restores the image, including tables that the edit
@@ -205,7 +204,7 @@ TEST(Renderer, MakesTangentsWhenAMaterialNeedsThem) {
 TEST(Renderer, FollowsASceneThatMovesFarAway) {
     Project project = test::rich_project();
     Updated updated(project);
-    const Frame first = updated.picture();
+    const Frame first = updated.image();
     const Scene near = project.scene;
     const auto move = [&](const Vec3& by) {
         project.scene = near;
@@ -221,39 +220,39 @@ TEST(Renderer, FollowsASceneThatMovesFarAway) {
         move({away, 0, 0});
         project.scene.view.position.x += away;
         updated.follow(project);
-        EXPECT_TRUE(same_picture(updated.picture(), fresh_picture(project.scene, project.render, samples))) << away;
+        EXPECT_TRUE(same_pixels(updated.image(), fresh_image(project.scene, project.render, samples))) << away;
     }
-    EXPECT_TRUE(same_picture(updated.picture(), first));
+    EXPECT_TRUE(same_pixels(updated.image(), first));
 
     // Without the camera, which then has another origin: moved straight away from it, so that the scene stays in view.
     const Vec3d forward = to_affine(near.view.rotation).z * -1;
     move(to_float(forward * (6 * world_bounds(near).radius())));
     updated.follow(project);
-    const Frame& small = updated.picture();
-    EXPECT_TRUE(same_picture(small, fresh_picture(project.scene, project.render, samples)));
+    const Frame& small = updated.image();
+    EXPECT_TRUE(same_pixels(small, fresh_image(project.scene, project.render, samples)));
     EXPECT_GT(std::count_if(small.object_id.begin(), small.object_id.end(), [](uint32_t id) { return id != 0; }), 10) << "too far to see";
 }
 
 TEST(Renderer, ThreadsAndBatchesDoNotChangeABit) {
     const Project project = test::rich_project();
-    const Frame one = fresh_picture(project.scene, project.render, 5, 1);
-    EXPECT_TRUE(same_picture(one, fresh_picture(project.scene, project.render, 5, 2)));
-    EXPECT_TRUE(same_picture(one, fresh_picture(project.scene, project.render, 5, 7)));
+    const Frame one = fresh_image(project.scene, project.render, 5, 1);
+    EXPECT_TRUE(same_pixels(one, fresh_image(project.scene, project.render, 5, 2)));
+    EXPECT_TRUE(same_pixels(one, fresh_image(project.scene, project.render, 5, 7)));
     Renderer split(all_planes());
     split.update(project.scene, project.render);
     for (const auto& [first, count] : {std::pair{0, 1}, {1, 1}, {2, 3}}) split.render(first, count);
-    EXPECT_TRUE(same_picture(one, split.resolve()));
+    EXPECT_TRUE(same_pixels(one, split.resolve()));
 }
 
 // The pilot's decisions must not be reused for another scene.
-TEST(Renderer, AdaptiveSamplingStartsAgainWithEachPicture) {
+TEST(Renderer, AdaptiveSamplingStartsAgainWithEachImage) {
     Project project = test::rich_project();
     project.render.adaptive = true;
     Renderer renderer(all_planes());
     const auto follow = [&](int64_t count) {
         renderer.update(project.scene, project.render);
         renderer.render(0, count);
-        EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, count)));
+        EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(project.scene, project.render, count)));
     };
     follow(40);
     project.scene.environment.intensity *= 7;
@@ -275,7 +274,7 @@ TEST(Renderer, DividersLeaveNoTrace) {
     EXPECT_EQ(renderer.resolve().width, 12);
     renderer.set_divider(1);
     renderer.render(0, 3);
-    EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, 3)));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(project.scene, project.render, 3)));
 }
 
 TEST(Renderer, AStoppedPassStopsAndLeavesNoTraceAfterClearing) {
@@ -288,7 +287,7 @@ TEST(Renderer, AStoppedPassStopsAndLeavesNoTraceAfterClearing) {
     EXPECT_FALSE(renderer.render(0, 2, [&] { return ++asked < 2; })) << "stopped after the first tile";
     renderer.clear();
     EXPECT_TRUE(renderer.render(0, 2));
-    EXPECT_TRUE(same_picture(renderer.resolve(), fresh_picture(project.scene, project.render, 2)));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(project.scene, project.render, 2)));
 }
 
 } // namespace

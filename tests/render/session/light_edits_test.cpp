@@ -3,7 +3,7 @@
 #include "render/bvh/accel.h"
 #include "scene/affine.h"
 #include "tests/render/session/rich_project.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/random_edits.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using test::all_planes;
 using test::Rng;
-using test::same_picture;
+using test::same_pixels;
 
 float random_float(Rng& rng, float low, float high) { return std::uniform_real_distribution<float>(low, high)(rng); }
 
@@ -155,7 +155,7 @@ TEST_P(LightEdits, RenderLikeAFreshScene) {
         fresh.update(base.scene, base.render);
         fresh.render(0, 1);
         fresh.update(project.scene, project.render);
-        ASSERT_TRUE(same_picture(updated.resolve(), fresh.resolve())) << "step " << step << ", change " << kind;
+        ASSERT_TRUE(same_pixels(updated.resolve(), fresh.resolve())) << "step " << step << ", change " << kind;
         EXPECT_EQ(updated.info().kernel, fresh.info().kernel);
         EXPECT_EQ(updated.info().emissive_triangles, fresh.info().emissive_triangles);
         EXPECT_EQ(updated.info().point_lights, fresh.info().point_lights);
@@ -187,7 +187,7 @@ TEST(DisabledAreaLight, IsInNoRaysWay) {
     const Id<Node> id = project.scene.nodes.add(node);
     Scene without = project.scene;
     change_node(without, id, [](Node& n) { n.light = {}; });
-    EXPECT_TRUE(same_picture(test::fresh_picture(project.scene, project.render, 2), test::fresh_picture(without, project.render, 2)));
+    EXPECT_TRUE(same_pixels(test::fresh_image(project.scene, project.render, 2), test::fresh_image(without, project.render, 2)));
 
     Renderer with_panel(all_planes()), with_none(all_planes());
     with_panel.update(project.scene, project.render);
@@ -198,7 +198,7 @@ TEST(DisabledAreaLight, IsInNoRaysWay) {
     Scene enabled = project.scene;
     panel.enabled = true;
     enabled.lights.set(node.light, panel);
-    EXPECT_FALSE(same_picture(test::fresh_picture(enabled, project.render, 2), test::fresh_picture(without, project.render, 2)));
+    EXPECT_FALSE(same_pixels(test::fresh_image(enabled, project.render, 2), test::fresh_image(without, project.render, 2)));
 }
 
 // Beside many copies, lamps are traced in a BVH of their own. The image is that of one BVH: here of the same scene without the last
@@ -211,7 +211,7 @@ TEST(AreaLightBvh, ShowsTheSameImage) {
     };
     const Id<Node> leaves = named("Leaves"), flag = named("Flag");
     constexpr size_t all = Accel::min_instances_for_area_light_bvh, few = all - 64; // the scene has some other instances
-    const auto picture_of = [&](size_t count) {
+    const auto image_of = [&](size_t count) {
         auto places = std::make_shared<Instances>(*crowded.scene.nodes.find(leaves)->instances);
         for (size_t i = few; i < all; ++i) {
             Affine& place = places->node_from_copy[i];
@@ -221,9 +221,9 @@ TEST(AreaLightBvh, ShowsTheSameImage) {
         Scene scene = crowded.scene;
         change_node(scene, leaves, [&](Node& n) { n.instances = std::move(places); });
         change_node(scene, flag, [](Node& n) { n.visible = false; });
-        return test::fresh_picture(scene, crowded.render, 4);
+        return test::fresh_image(scene, crowded.render, 4);
     };
-    EXPECT_TRUE(same_picture(picture_of(all), picture_of(few)));
+    EXPECT_TRUE(same_pixels(image_of(all), image_of(few)));
 }
 
 } // namespace

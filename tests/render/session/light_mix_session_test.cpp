@@ -2,7 +2,7 @@
 #include "render/light_mix/light_mix.h"
 #include "render/session/render_session.h"
 #include "tests/render/session/recording_session.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(SessionMix, AppliesToExistingSamples) {
     EXPECT_EQ(after->gains, (Gains{{1, 1, 1}, {3, 3, 3}}));
     EXPECT_NE(after->rgba, before->rgba);
     EXPECT_NE(after->error.rmse, before->error.rmse);
-    // What the window shows meanwhile, mixed from the previous frame.
+    // The window's preview until then, mixed from the previous frame.
     const std::vector<float> meanwhile = mixed_rgba(*before, after->gains);
     for (size_t i = 0; i < meanwhile.size(); ++i) ASSERT_NEAR(meanwhile[i], after->rgba[i], 0x1p-20f * after->rgba[i]);
 
@@ -61,7 +61,7 @@ TEST(SessionMix, AppliesToExistingSamples) {
     session->submit(3, lamps.project.scene, lamps.project.render);
     const FramePtr moved = frame_of(session, 3);
     ASSERT_TRUE(moved);
-    EXPECT_EQ(moved->rgba, test::fresh_picture(lamps.project.scene, lamps.project.render, 8).rgba);
+    EXPECT_EQ(moved->rgba, test::fresh_image(lamps.project.scene, lamps.project.render, 8).rgba);
 }
 
 // A mix submitted before its image was applied still uses planes with that image's own emission.

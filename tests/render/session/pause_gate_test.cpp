@@ -3,7 +3,7 @@
 
 #include "tests/render/session/recording_session.h"
 #include "tests/support/eventually.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ Project project_of(int width, int height, int64_t spp) {
 }
 
 // Yields at the first frame with so many samples.
-auto aside_after(int64_t samples) {
+auto yields_after(int64_t samples) {
     return [samples, done = false](RenderSession& session, const Event& event) mutable {
         if (done || !event.frame || event.frame->samples < samples) return;
         done = true;
@@ -90,7 +90,7 @@ auto aside_after(int64_t samples) {
 
 TEST(YieldToUi, ContinuesFromTheSameSamples) {
     Project project = project_of(32, 24, 64);
-    RecordingSession session(2, aside_after(4));
+    RecordingSession session(2, yields_after(4));
     session->submit(1, project.scene, project.render);
     const Event yielding = session.wait_for(1, State::yielding);
     ASSERT_TRUE(yielding.frame);
@@ -104,13 +104,13 @@ TEST(YieldToUi, ContinuesFromTheSameSamples) {
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
     EXPECT_EQ(done.frame->samples, 80);
-    EXPECT_EQ(done.frame->rgba, test::fresh_picture(project.scene, project.render, 80).rgba);
+    EXPECT_EQ(done.frame->rgba, test::fresh_image(project.scene, project.render, 80).rgba);
     EXPECT_NE(session.events()[before].status.state, State::yielding) << "nothing is announced before it resumes";
 }
 
 TEST(YieldToUi, DoesNotDelayAnotherImage) {
     Project project = project_of(32, 24, 8);
-    RecordingSession session(2, aside_after(1));
+    RecordingSession session(2, yields_after(1));
     session->submit(1, project.scene, project.render);
     session.wait_for(1, State::yielding);
     project.scene.view.position.x += 0.1f;
@@ -121,7 +121,7 @@ TEST(YieldToUi, DoesNotDelayAnotherImage) {
 
 TEST(YieldToUi, StillSavesFilms) {
     const Project project = project_of(32, 24, 64);
-    RecordingSession session(2, aside_after(4));
+    RecordingSession session(2, yields_after(4));
     session->submit(1, project.scene, project.render);
     session.wait_for(1, State::yielding);
     session->request_film(1);

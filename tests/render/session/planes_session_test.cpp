@@ -2,7 +2,7 @@
 #include "render/session/render_session.h"
 
 #include "tests/render/session/recording_session.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(SessionPlanes, RestartTheImageWhenAddedButNotWhenRemoved) {
     const FramePtr with = session.wait_for(2, State::complete).frame;
     ASSERT_TRUE(with);
     EXPECT_EQ(with->bounces.size(), 4u);
-    EXPECT_EQ(with->rgba, plain->rgba) << "the picture is the same";
+    EXPECT_EQ(with->rgba, plain->rgba) << "the image is the same";
     EXPECT_FALSE(with->albedo.empty()) << "first-hit planes are kept";
 
     session->submit(3, p.scene, p.render);

@@ -2,7 +2,7 @@
 // image equals that of a renderer that never saw the untextured scene.
 #include "render/renderer.h"
 #include "scene/document/preview_scene.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -39,10 +39,10 @@ TEST(PreviewScene, IsReplacedByTheTexturedScene) {
         light += v;
     }
     EXPECT_GT(light, 0);
-    EXPECT_FALSE(test::same_picture(early, test::fresh_picture(whole, small(), 4)));
+    EXPECT_FALSE(test::same_pixels(early, test::fresh_image(whole, small(), 4)));
     renderer.update(whole, small());
     renderer.render(0, 4);
-    EXPECT_TRUE(test::same_picture(renderer.resolve(), test::fresh_picture(whole, small(), 4)));
+    EXPECT_TRUE(test::same_pixels(renderer.resolve(), test::fresh_image(whole, small(), 4)));
 }
 
 } // namespace

@@ -6,81 +6,81 @@ namespace blush::TEST_FILE {
 namespace {
 
 FramePtr frame() { return std::make_shared<const Frame>(); }
-DenoisedPtr denoised() { return std::make_shared<const DenoisedPicture>(); }
+DenoisedPtr denoised() { return std::make_shared<const DenoisedImage>(); }
 
-TEST(PublishedFrames, ADenoisedPictureLivesAsLongAsItsImage) {
-    PublishedFrames showcase;
+TEST(PublishedFrames, ADenoisedImageLivesAsLongAsItsImage) {
+    PublishedFrames published;
     const FramePtr first = frame(), second = frame(), other = frame();
-    const DenoisedPtr picture = denoised();
-    showcase.show(1, first);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr);
-    showcase.answer(1, first, picture);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
-    showcase.show(1, second);
-    EXPECT_EQ(showcase.pictures().frame, second);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
-    showcase.answer(1, second, nullptr);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "a skipped frame keeps the denoised image";
-    showcase.show(2, other);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr);
-    showcase.answer(1, second, denoised());
-    EXPECT_EQ(showcase.pictures().frame, other);
-    EXPECT_EQ(showcase.pictures().denoised, nullptr) << "its image is no longer shown";
+    const DenoisedPtr image = denoised();
+    published.show(1, first);
+    EXPECT_EQ(published.images().denoised, nullptr);
+    published.answer(1, first, image);
+    EXPECT_EQ(published.images().denoised, image);
+    published.show(1, second);
+    EXPECT_EQ(published.images().frame, second);
+    EXPECT_EQ(published.images().denoised, image);
+    published.answer(1, second, nullptr);
+    EXPECT_EQ(published.images().denoised, image) << "a skipped frame keeps the denoised image";
+    published.show(2, other);
+    EXPECT_EQ(published.images().denoised, nullptr);
+    published.answer(1, second, denoised());
+    EXPECT_EQ(published.images().frame, other);
+    EXPECT_EQ(published.images().denoised, nullptr) << "its image is no longer shown";
 }
 
 TEST(PublishedFrames, AWithheldFrameIsShownWithItsDenoisedVersion) {
-    PublishedFrames showcase;
+    PublishedFrames published;
     const FramePtr old = frame(), next = frame();
-    showcase.show(1, old);
-    showcase.withhold(2, next);
-    EXPECT_EQ(showcase.pictures().frame, old);
-    const DenoisedPtr picture = denoised();
-    showcase.answer(2, next, picture);
-    EXPECT_EQ(showcase.pictures().frame, next);
-    EXPECT_EQ(showcase.pictures().denoised, picture);
+    published.show(1, old);
+    published.withhold(2, next);
+    EXPECT_EQ(published.images().frame, old);
+    const DenoisedPtr image = denoised();
+    published.answer(2, next, image);
+    EXPECT_EQ(published.images().frame, next);
+    EXPECT_EQ(published.images().denoised, image);
 }
 
 TEST(PublishedFrames, AWithheldFrameIsShownIfDenoisingFails) {
     for (const bool answered : {true, false}) {
-        PublishedFrames showcase;
+        PublishedFrames published;
         const FramePtr next = frame();
-        showcase.withhold(1, next);
+        published.withhold(1, next);
         if (answered)
-            showcase.answer(1, next, nullptr);
+            published.answer(1, next, nullptr);
         else
-            showcase.release();
-        EXPECT_EQ(showcase.pictures().frame, next);
-        EXPECT_EQ(showcase.pictures().denoised, nullptr);
-        showcase.release();
-        EXPECT_EQ(showcase.pictures().frame, next) << "nothing is withheld any more";
+            published.release();
+        EXPECT_EQ(published.images().frame, next);
+        EXPECT_EQ(published.images().denoised, nullptr);
+        published.release();
+        EXPECT_EQ(published.images().frame, next) << "nothing is withheld any more";
     }
 }
 
 TEST(PublishedFrames, ALaterFrameIsShownAtOnce) {
-    PublishedFrames showcase;
+    PublishedFrames published;
     const FramePtr coarse = frame(), fine = frame();
-    const DenoisedPtr picture = denoised();
-    showcase.withhold(1, coarse);
-    showcase.show(1, fine);
-    EXPECT_EQ(showcase.pictures().frame, fine);
-    showcase.answer(1, coarse, picture);
-    EXPECT_EQ(showcase.pictures().frame, fine);
-    EXPECT_EQ(showcase.pictures().denoised, picture) << "coarser, but of the same image";
+    const DenoisedPtr image = denoised();
+    published.withhold(1, coarse);
+    published.show(1, fine);
+    EXPECT_EQ(published.images().frame, fine);
+    published.answer(1, coarse, image);
+    EXPECT_EQ(published.images().frame, fine);
+    EXPECT_EQ(published.images().denoised, image) << "coarser, but of the same image";
 }
 
 TEST(PublishedFrames, ADragFasterThanTheDenoiserStillShowsSomething) {
-    PublishedFrames showcase;
+    PublishedFrames published;
     const FramePtr second = frame(), third = frame();
-    showcase.show(1, frame());
-    showcase.withhold(2, second);
-    showcase.withhold(3, third);
+    published.show(1, frame());
+    published.withhold(2, second);
+    published.withhold(3, third);
     const DenoisedPtr of_second = denoised(), of_third = denoised();
-    showcase.answer(2, second, of_second);
-    EXPECT_EQ(showcase.pictures().frame, second);
-    EXPECT_EQ(showcase.pictures().denoised, of_second);
-    showcase.answer(3, third, of_third);
-    EXPECT_EQ(showcase.pictures().frame, third);
-    EXPECT_EQ(showcase.pictures().denoised, of_third);
+    published.answer(2, second, of_second);
+    EXPECT_EQ(published.images().frame, second);
+    EXPECT_EQ(published.images().denoised, of_second);
+    published.answer(3, third, of_third);
+    EXPECT_EQ(published.images().frame, third);
+    EXPECT_EQ(published.images().denoised, of_third);
 }
 
 } // namespace

@@ -38,8 +38,8 @@ void RecordingSession::record() {
     {
         // The render thread and the denoiser's thread announce concurrently: record in the order in which they read the state.
         const std::lock_guard lock(mutex_);
-        const Pictures pictures = watched_->pictures();
-        event = {watched_->status(), pictures.frame, pictures.denoised};
+        const Images images = watched_->images();
+        event = {watched_->status(), images.frame, images.denoised};
         events_.push_back(event);
     }
     changed_.notify_all();

@@ -5,7 +5,7 @@
 #include "tests/render/session/recording_session.h"
 #include "tests/render/session/rich_project.h"
 #include "tests/support/eventually.h"
-#include "tests/support/pictures.h"
+#include "tests/support/images.h"
 #include "tests/support/sample_project.h"
 
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@ using State = SessionStatus::State;
 using test::checksum;
 using test::Event;
 using test::eventually;
-using test::fresh_picture;
+using test::fresh_image;
 using test::RecordingSession;
-using test::same_picture;
+using test::same_pixels;
 
 Project small_project(int width = 32, int height = 24, int64_t spp = 8) {
     Project project = test::sample_project().project;
@@ -56,7 +56,7 @@ void submit(RecordingSession& session, uint64_t revision, const Project& project
     session->submit(revision, project.scene, project.render);
 }
 
-Frame fresh(const Project& project) { return fresh_picture(project.scene, project.render, project.render.spp); }
+Frame fresh(const Project& project) { return fresh_image(project.scene, project.render, project.render.spp); }
 
 // Revisions of published frames in order, each once.
 std::vector<uint64_t> revisions_shown(const RecordingSession& session) {
@@ -96,7 +96,7 @@ TEST(RenderSession, ReachesTheImageOfARendererAndCompletes) {
     submit(session, 5, project);
     const Event last = session.wait_for(5, State::complete);
     ASSERT_TRUE(last.frame);
-    EXPECT_TRUE(same_picture(*last.frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*last.frame, fresh(project)));
     EXPECT_TRUE(last.frame->complete);
     EXPECT_EQ(last.frame->revision, 5u);
     EXPECT_EQ(last.status.progress, 1);
@@ -156,10 +156,10 @@ TEST(RenderSession, PilotOfPathReuseRunsAfterTheFirstSample) {
     EXPECT_EQ(frames.front()->samples, 1);
     EXPECT_FALSE(measured(*frames.front()));
     EXPECT_TRUE(measured(*frames.back()));
-    EXPECT_TRUE(same_picture(*frames.back(), fresh(project)));
+    EXPECT_TRUE(same_pixels(*frames.back(), fresh(project)));
 }
 
-TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {
+TEST(RenderSession, CoarseImageFirstFullResolutionNext) {
     const Project project = large_project(2);
     RecordingSession session;
     submit(session, 1, project);
@@ -170,7 +170,7 @@ TEST(RenderSession, CoarsePictureFirstFullResolutionNext) {
     EXPECT_GT(frames[0]->divider, 1);
     EXPECT_EQ(frames[0]->width, project.render.width / frames[0]->divider);
     for (size_t i = 1; i < frames.size(); ++i) EXPECT_LE(frames[i]->divider, frames[i - 1]->divider);
-    EXPECT_TRUE(same_picture(*frames.back(), fresh(project)));
+    EXPECT_TRUE(same_pixels(*frames.back(), fresh(project)));
 }
 
 TEST(RenderSession, LatestOfTenThousandWins) {
@@ -180,7 +180,7 @@ TEST(RenderSession, LatestOfTenThousandWins) {
     for (uint64_t revision = 1; revision <= 10000; ++revision) submit(session, revision, last = lit_by(project, float(revision)));
     const Event done = session.wait_for(10000, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(last)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(last)));
     session.shut_down();
     const std::vector<uint64_t> shown = revisions_shown(session);
     EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end())) << "never back to an older revision";
@@ -206,7 +206,7 @@ TEST(RenderSession, ManyThreadsMaySubmitAndRead) {
     submit(session, 1000, last);
     const Event done = session.wait_for(1000, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(last)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(last)));
 }
 
 TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
@@ -224,14 +224,14 @@ TEST(RenderSession, AnAppliedSubmissionIsShownEvenIfTheNextIsPending) {
     const Event done = session.wait_for(last, State::complete);
     session.shut_down();
     EXPECT_EQ(revisions_shown(session), (std::vector<uint64_t>{1, 2, 3, 4, 5, 6}));
-    std::map<uint64_t, int> pictures;
-    for (const FramePtr& frame : session.frames()) ++pictures[frame->revision];
-    for (uint64_t revision = 1; revision < last; ++revision) { EXPECT_EQ(pictures[revision], 1) << "only the coarse image"; }
+    std::map<uint64_t, int> images;
+    for (const FramePtr& frame : session.frames()) ++images[frame->revision];
+    for (uint64_t revision = 1; revision < last; ++revision) { EXPECT_EQ(images[revision], 1) << "only the coarse image"; }
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(lit_by(project, last))));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(lit_by(project, last))));
 }
 
-TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
+TEST(RenderSession, PausedItShowsTheFirstImageAndWaits) {
     const Project project = small_project(32, 24, 16);
     RecordingSession session;
     session->pause(true);
@@ -254,7 +254,7 @@ TEST(RenderSession, PausedItShowsTheFirstPictureAndWaits) {
     session->pause(false);
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(edited)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(edited)));
     EXPECT_EQ(session.events()[before].status.state, State::rendering) << "nothing is announced before it resumes";
 }
 
@@ -269,7 +269,7 @@ TEST(RenderSession, PausingKeepsTheSamples) {
     session->pause(false);
     const Event done = session.wait_for(1, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(project)));
 }
 
 TEST(RenderSession, CanBeDestroyedDuringAPass) {
@@ -307,7 +307,7 @@ TEST(RenderSession, MoreSamplesContinueTheImage) {
     submit(session, 2, with_spp(project, 16));
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(with_spp(project, 16))));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(with_spp(project, 16))));
     session.shut_down();
     int64_t samples = 0;
     for (const FramePtr& frame : session.frames()) {
@@ -325,10 +325,10 @@ TEST(RenderSession, StopRulesMayChangeInTheMiddle) {
     ASSERT_TRUE(done.frame);
     // Rendering may already be further: then that frame is shown.
     EXPECT_GE(done.frame->samples, 50);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(with_spp(project, done.frame->samples))));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(with_spp(project, done.frame->samples))));
 }
 
-TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
+TEST(RenderSession, AdaptiveSamplingShowsTheImageThatARendererMakes) {
     Project project = small_project(48, 32, 48);
     project.render.adaptive = true;
     RecordingSession session;
@@ -337,12 +337,12 @@ TEST(RenderSession, AdaptiveSamplingShowsThePictureThatARendererMakes) {
     ASSERT_TRUE(done.frame);
     EXPECT_EQ(done.frame->samples, 48);
     EXPECT_EQ(done.frame->pixel_samples.size(), size_t(48 * 32));
-    EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(project)));
     // More samples continue from there.
     submit(session, 2, with_spp(project, 80));
     const Event more = session.wait_for(2, State::complete);
     ASSERT_TRUE(more.frame);
-    EXPECT_TRUE(same_picture(*more.frame, fresh(with_spp(project, 80))));
+    EXPECT_TRUE(same_pixels(*more.frame, fresh(with_spp(project, 80))));
 }
 
 TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
@@ -355,7 +355,7 @@ TEST(RenderSession, FewerSamplesThanRenderedCompleteAtOnce) {
     ASSERT_TRUE(done.frame);
     EXPECT_EQ(done.frame->revision, 2u) << "the frame states its revision";
     EXPECT_TRUE(done.frame->complete);
-    EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(project)));
 }
 
 TEST(RenderSession, ARenameDoesNotRestart) {
@@ -403,15 +403,15 @@ TEST(RenderSession, ReportsFailuresAndRecovers) {
     const Event done = session.wait_for(2, State::complete);
     ASSERT_TRUE(done.frame);
     EXPECT_TRUE(done.status.message.empty());
-    EXPECT_TRUE(same_picture(*done.frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*done.frame, fresh(project)));
 
     submit(session, 3, impossible);
     EXPECT_EQ(session.wait_for(3, State::updating).status.progress, 0) << "the completed image is outdated";
-    EXPECT_EQ(session.wait_for(3, State::failed).frame, done.frame) << "the last picture stays";
+    EXPECT_EQ(session.wait_for(3, State::failed).frame, done.frame) << "the last image stays";
     submit(session, 4, impossible);
     session.wait_for(4, State::failed);
     submit(session, 5, project);
-    EXPECT_TRUE(same_picture(*session.wait_for(5, State::complete).frame, *done.frame));
+    EXPECT_TRUE(same_pixels(*session.wait_for(5, State::complete).frame, *done.frame));
 }
 
 TEST(RenderSession, PublishedFramesNeverChange) {
@@ -449,7 +449,7 @@ TEST(RenderSession, FramesOutliveTheSession) {
         frame = session.wait_for(1, State::complete).frame;
     }
     ASSERT_TRUE(frame);
-    EXPECT_TRUE(same_picture(*frame, fresh(project)));
+    EXPECT_TRUE(same_pixels(*frame, fresh(project)));
 }
 
 TEST(RenderSession, ThreadsDoNotChangeABit) {
@@ -460,7 +460,7 @@ TEST(RenderSession, ThreadsDoNotChangeABit) {
         submit(session, 1, project);
         const Event done = session.wait_for(1, State::complete);
         ASSERT_TRUE(done.frame);
-        EXPECT_TRUE(same_picture(*done.frame, fresh(project))) << threads << " threads";
+        EXPECT_TRUE(same_pixels(*done.frame, fresh(project))) << threads << " threads";
     }
 }
 

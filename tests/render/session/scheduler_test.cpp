@@ -43,7 +43,7 @@ RenderSettings endless(int width = 1280, int height = 720) {
 }
 
 // A scheduler that knows the sample time, before the first work of a new revision.
-Scheduler experienced(const Machine& machine, const RenderSettings& settings) {
+Scheduler trained(const Machine& machine, const RenderSettings& settings) {
     Scheduler scheduler;
     RenderSettings long_ago = settings;
     long_ago.spp = 0;
@@ -53,18 +53,18 @@ Scheduler experienced(const Machine& machine, const RenderSettings& settings) {
     return scheduler;
 }
 
-TEST(Scheduler, FirstPictureIsTheFinestThatFits) {
+TEST(Scheduler, FirstImageIsTheFinestThatFits) {
     for (const double sample_seconds : {0.001, 0.02, 0.03, 0.09, 0.3, 0.7}) {
-        const Scheduler scheduler = experienced({sample_seconds}, endless());
+        const Scheduler scheduler = trained({sample_seconds}, endless());
         const int d = scheduler.next().divider;
         EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << sample_seconds;
         if (d > 1) { EXPECT_GT(sample_seconds / ((d - 1) * (d - 1)), Scheduler::first_image_seconds) << "a finer one would have fitted"; }
     }
 }
 
-TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
+TEST(Scheduler, FirstImagesKeepTheirSizeWhileTimingsVary) {
     // Just at the border between 1/3 and 1/4: a sample takes 9/60 s, more or less.
-    Scheduler scheduler = experienced({9 * Scheduler::first_image_seconds}, endless());
+    Scheduler scheduler = trained({9 * Scheduler::first_image_seconds}, endless());
     const int first = scheduler.next().divider;
     for (int edit = 0; edit < 20; ++edit) {
         const double noise = edit % 2 == 0 ? 1.08 : 0.92;
@@ -77,30 +77,30 @@ TEST(Scheduler, FirstPicturesKeepTheirSizeWhileTimingsVary) {
     EXPECT_EQ(scheduler.next().divider, 5) << "a scene that became slower";
 }
 
-TEST(Scheduler, FirstPictureLeavesTimeForDenoising) {
+TEST(Scheduler, FirstImageLeavesTimeForDenoising) {
     const double pixels = 1280 * 720, sample_seconds = 0.2;
     for (const double denoising : {0.1, 0.2, 0.4, 1.0}) {
-        Scheduler scheduler = experienced({sample_seconds}, endless());
+        Scheduler scheduler = trained({sample_seconds}, endless());
         scheduler.expect_denoising(denoising / pixels);
         const int d = scheduler.next().divider;
         EXPECT_LE((sample_seconds + denoising) / (d * d), Scheduler::first_denoised_seconds * Scheduler::timing_tolerance) << denoising;
         EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << denoising;
     }
-    Scheduler slow = experienced({sample_seconds}, endless());
+    Scheduler slow = trained({sample_seconds}, endless());
     slow.expect_denoising(20 / pixels);
-    EXPECT_EQ(slow.next().divider, experienced({sample_seconds}, endless()).next().divider) << "denoising that would not be in time";
-    Scheduler fast = experienced({0.001}, endless());
+    EXPECT_EQ(slow.next().divider, trained({sample_seconds}, endless()).next().divider) << "denoising that would not be in time";
+    Scheduler fast = trained({0.001}, endless());
     fast.expect_denoising(0.1 / pixels);
     EXPECT_EQ(fast.next().divider, 1) << "full resolution needs no coarse image";
 }
 
-TEST(Scheduler, FirstPictureHasAMinimumSize) {
-    EXPECT_EQ(experienced({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
+TEST(Scheduler, FirstImageHasAMinimumSize) {
+    EXPECT_EQ(trained({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
-        const int d = experienced({1000}, endless(width, 3)).next().divider;
+        const int d = trained({1000}, endless(width, 3)).next().divider;
         EXPECT_TRUE(d == 1 || width / d >= Scheduler::min_long_side) << width << " / " << d;
     }
-    EXPECT_EQ(experienced({1000}, endless(1, 1)).next().divider, 1);
+    EXPECT_EQ(trained({1000}, endless(1, 1)).next().divider, 1);
 }
 
 TEST(Scheduler, AssumesASpeedBeforeItHasMeasured) {
@@ -112,15 +112,15 @@ TEST(Scheduler, AssumesASpeedBeforeItHasMeasured) {
 }
 
 TEST(Scheduler, NonInteractiveItBeginsAtFullResolution) {
-    Scheduler scheduler = experienced({1000}, endless());
+    Scheduler scheduler = trained({1000}, endless());
     scheduler.restart(endless(), false);
     EXPECT_EQ(scheduler.next().divider, 1);
 }
 
-TEST(Scheduler, FirstPictureIsAlwaysFinishedAndShown) {
+TEST(Scheduler, FirstImageIsAlwaysFinishedAndShown) {
     for (const double sample_seconds : {0.001, 0.1, 5.0}) {
         const Machine machine{sample_seconds};
-        Scheduler scheduler = experienced(machine, endless());
+        Scheduler scheduler = trained(machine, endless());
         const std::vector<Work> done = machine.run(scheduler, 20);
         EXPECT_TRUE(done[0].clear && done[0].publish && done[0].always_finish);
         EXPECT_EQ(done[0].count, 1);
@@ -131,7 +131,7 @@ TEST(Scheduler, FirstPictureIsAlwaysFinishedAndShown) {
 TEST(Scheduler, FullResolutionIsNextAndStays) {
     const auto dividers = [](double sample_seconds) {
         const Machine machine{sample_seconds};
-        Scheduler scheduler = experienced(machine, endless());
+        Scheduler scheduler = trained(machine, endless());
         std::vector<int> d;
         for (const Work& work : machine.run(scheduler, 8)) {
             EXPECT_EQ(work.clear, d.empty() || work.divider != d.back()) << "clears when and only when the film changes size";
@@ -151,7 +151,7 @@ TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
             settings.first_sample = spp > 0 ? 3 : 0;
             settings.spp = spp > 0 ? spp + 3 : 0;
             const Machine machine{sample_seconds};
-            Scheduler scheduler = experienced(machine, settings);
+            Scheduler scheduler = trained(machine, settings);
             const int divider = scheduler.next().divider;
             double seconds = 0;
             int64_t samples = 0;
@@ -179,7 +179,7 @@ TEST(Scheduler, SamplesOfTheFullImageAreDoneOnceAndInOrder) {
             settings.first_sample = first;
             settings.spp = first + count;
             const Machine machine{0.03};
-            Scheduler scheduler = experienced(machine, settings);
+            Scheduler scheduler = trained(machine, settings);
             int64_t next = first;
             for (const Work& work : machine.run(scheduler)) {
                 if (work.divider > 1) {
@@ -198,7 +198,7 @@ TEST(Scheduler, SamplesOfTheFullImageAreDoneOnceAndInOrder) {
 
 TEST(Scheduler, BatchesDouble) {
     const Machine machine{1e-4};
-    Scheduler scheduler = experienced(machine, endless());
+    Scheduler scheduler = trained(machine, endless());
     int64_t samples = 0;
     for (const Work& work : machine.run(scheduler, 7)) {
         EXPECT_EQ(work.count, std::max<int64_t>(1, samples));
@@ -212,20 +212,20 @@ TEST(Scheduler, DisplayIntervalsGrowUpToALimit) {
     const auto longest_wait = [](double now) { return now < 1 ? 0.1 : now < 4 ? 0.25 : now < 15 ? 0.5 : 1; };
     for (const double sample_seconds : {0.0005, 0.004, 0.03, 0.4}) {
         const Machine machine{sample_seconds};
-        Scheduler scheduler = experienced(machine, endless());
+        Scheduler scheduler = trained(machine, endless());
         double now = 0, shown = 0;
-        int pictures = 0;
+        int images = 0;
         while (now < 60) {
             const Work work = scheduler.next();
             machine.do_work(scheduler, work);
             now += machine.seconds(work);
             if (!work.publish) continue;
-            ++pictures;
+            ++images;
             EXPECT_LE(now - shown, longest_wait(now) + sample_seconds + 1e-9) << "at " << now << " of " << sample_seconds;
             if (shown > 16) { EXPECT_GE(now - shown, 0.9 - 1e-9) << "resolving costs"; }
             shown = now;
         }
-        EXPECT_LT(pictures, 130);
+        EXPECT_LT(images, 130);
     }
 }
 
@@ -234,10 +234,10 @@ TEST(Scheduler, StopsAtTheNumberOfSamples) {
     for (const int64_t spp : {1, 5, 64}) {
         settings.spp = spp;
         const Machine machine{0.1};
-        Scheduler scheduler = experienced(machine, settings);
+        Scheduler scheduler = trained(machine, settings);
         const std::vector<Work> done = machine.run(scheduler);
         EXPECT_EQ(scheduler.samples(), spp);
-        EXPECT_TRUE(done.back().publish) << "the last picture is shown";
+        EXPECT_TRUE(done.back().publish) << "the last image is shown";
     }
 }
 
@@ -246,7 +246,7 @@ TEST(Scheduler, StopsAtTheTimeWithinOneSample) {
     settings.seconds = 2;
     for (const double sample_seconds : {0.001, 0.07, 0.3, 3.0}) {
         const Machine machine{sample_seconds};
-        Scheduler scheduler = experienced(machine, settings);
+        Scheduler scheduler = trained(machine, settings);
         const std::vector<Work> done = machine.run(scheduler);
         EXPECT_GE(scheduler.seconds(), settings.seconds);
         EXPECT_LE(scheduler.seconds(), settings.seconds + sample_seconds + 1e-9);
@@ -259,7 +259,7 @@ TEST(Scheduler, StopsAtTheErrorOfTheFullImageOnly) {
     RenderSettings settings = endless();
     settings.error = 0.01;
     const Machine machine{0.2};
-    Scheduler scheduler = experienced(machine, settings);
+    Scheduler scheduler = trained(machine, settings);
     ASSERT_GT(scheduler.next().divider, 1);
     machine.run(scheduler);
     EXPECT_GE(scheduler.samples(), 100);
@@ -289,7 +289,7 @@ TEST(Scheduler, RequestsAnEstimateWhenTheErrorMayBeReached) {
 TEST(Scheduler, AnUnknownErrorStopsNothing) {
     RenderSettings settings = endless();
     settings.error = 0.5;
-    Scheduler scheduler = experienced({}, settings);
+    Scheduler scheduler = trained({}, settings);
     for (const double error : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.6}) {
         const Work work = scheduler.next();
         scheduler.record_render(work, 0.001);
@@ -304,7 +304,7 @@ TEST(Scheduler, TheNearestStopRuleWins) {
     settings.spp = 1000;
     settings.seconds = 100;
     settings.error = 0.1;
-    Scheduler scheduler = experienced({}, settings);
+    Scheduler scheduler = trained({}, settings);
     Machine{0.001}.run(scheduler);
     EXPECT_LT(scheduler.samples(), 1000);
     EXPECT_LT(scheduler.seconds(), 100);
@@ -329,7 +329,7 @@ TEST(Scheduler, ProgressGrowsAndIsOneOnlyWhenFinished) {
     rules[3].error = 0.0001;
     const Machine machine{0.02};
     for (const RenderSettings& settings : rules) {
-        Scheduler scheduler = experienced(machine, settings);
+        Scheduler scheduler = trained(machine, settings);
         double last = 0;
         EXPECT_EQ(scheduler.progress(), 0);
         while (!scheduler.finished()) {
@@ -340,7 +340,7 @@ TEST(Scheduler, ProgressGrowsAndIsOneOnlyWhenFinished) {
         }
         EXPECT_EQ(last, 1);
     }
-    Scheduler scheduler = experienced(machine, endless());
+    Scheduler scheduler = trained(machine, endless());
     machine.run(scheduler, 100);
     EXPECT_EQ(scheduler.progress(), 0) << "without a stop rule there is no progress";
 }
@@ -349,7 +349,7 @@ TEST(Scheduler, OtherStopRulesContinueTheSameImage) {
     RenderSettings settings = endless();
     settings.spp = 16;
     const Machine machine{0.05};
-    Scheduler scheduler = experienced(machine, settings);
+    Scheduler scheduler = trained(machine, settings);
     machine.run(scheduler);
     settings.spp = 64;
     scheduler.change_stop_rules(settings);
@@ -367,7 +367,7 @@ TEST(Scheduler, OtherStopRulesContinueTheSameImage) {
 
 TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {
     const Machine machine{0.3};
-    Scheduler scheduler = experienced(machine, endless());
+    Scheduler scheduler = trained(machine, endless());
     const int divider = scheduler.next().divider;
     machine.run(scheduler, 30);
     scheduler.restart(endless(), true);

@@ -1,4 +1,4 @@
-// Identity of the image of each submission: what begins an image, what continues it, and what only mixes it anew.
+// Identity of the image of each submission: which edits begin an image, continue it, or only remix it.
 #include "render/session/submission.h"
 #include "tests/support/sample_project.h"
 

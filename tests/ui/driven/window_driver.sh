@@ -14,7 +14,7 @@ size=320x240
 spp=16
 screen=1280x800 # of the virtual display
 settings= # JSON of what the window remembers; empty: it begins as if it were the first
-rest="890 550" # where the mouse is out of the picture's way: the end of the status bar
+rest="890 550" # where the mouse is out of the image's way: the end of the status bar
 xvfb= editor=
 
 finish() {
@@ -64,7 +64,7 @@ open_file() {
     editor=$!
     until_true 120 test -f "$probe" || fail "the window does not open"
     [ -z "${2:-}" ] || return 0
-    until_true 120 converged || fail "the picture does not converge"
+    until_true 120 converged || fail "the image does not converge"
     overlays_off
 }
 # open_editor SCENE: one of the shipped scenes.
@@ -83,7 +83,7 @@ leaves() {
     editor=
     rm -f "$probe"
 }
-discard_if_asked() { ! has_widget "Question/Discard" || click "Question/Discard"; }
+discard_if_asked() { ! has_widget "Dialog/Discard" || click "Dialog/Discard"; }
 close_editor() {
     xdotool key ctrl+q
     leaves "Ctrl+Q does not close the window" discard_if_asked
@@ -145,7 +145,7 @@ widget() { grep -F "  \"$1\": {" "$probe"; }
 field() { widget "$1" | sed "s/.*\"$2\":\\([0-9.]*\\).*/\\1/"; }
 has_widget() { widget "$1" >/dev/null; }
 says() { head -n 1 "$probe" | grep -qF "\"toast\":\"$1"; }
-# The state is read once: between two reads the window may replace a picture that is complete but outdated by one that is up to date
+# The state is read once: between two reads the window may replace an image that is complete but outdated by one that is up to date
 # but not complete.
 shows_converged() { [[ $1 == *'"complete":true'[,}]* && $1 == *'"up_to_date":true'[,}]* ]]; }
 converged() { shows_converged "$(head -n 1 "$probe")"; }
@@ -155,12 +155,12 @@ edited_since() {
     [[ $line != *"\"revision\":$1"[,}]* ]] && shows_converged "$line"
 }
 
-# after_edit COMMAND...: runs a command that changes the picture, and waits until the picture has converged.
+# after_edit COMMAND...: runs a command that changes the image, and waits until the image has converged.
 after_edit() {
     local revision
     revision=$(number 1 revision)
     "$@"
-    until_true 120 edited_since "$revision" || fail "no new picture converges after: $*"
+    until_true 120 edited_since "$revision" || fail "no new image converges after: $*"
 }
 
 # middle WIDGET [PER_CENT]: a point at this fraction of the widget's width, vertically centred.
@@ -213,10 +213,10 @@ settled() { state settled true; }
 # apart A B: two regions, each as "x y width height", share no pixel.
 apart() { echo "$1 $2" | awk '{ exit !($1 >= $5 + $7 || $5 >= $1 + $3 || $2 >= $6 + $8 || $6 >= $2 + $4) }'; }
 region_of() { echo "$(field "$1" x) $(field "$1" y) $(field "$1" width) $(field "$1" height)"; }
-picture() { echo "$(number 1 x) $(number 1 y) $(image_size width) $(image_size height)"; }
-no_message_over_the_picture() {
+image() { echo "$(number 1 x) $(number 1 y) $(image_size width) $(image_size height)"; }
+no_message_over_the_image() {
     local name
-    for name in $(grep -o '"Card/[^"]*"' "$probe" | tr -d '"'); do apart "$(region_of "$name")" "$(picture)" || return 1; done
+    for name in $(grep -o '"Card/[^"]*"' "$probe" | tr -d '"'); do apart "$(region_of "$name")" "$(image)" || return 1; done
 }
 # dismiss_messages: by a click on each; those with a button stay for a minute.
 dismiss_messages() {
@@ -225,10 +225,10 @@ dismiss_messages() {
     }
     until_true 30 dismissed || fail "a click does not dismiss a message: $(widget Card/0)"
 }
-# Takes a screenshot of the picture, with the mouse outside of it and without messages over it.
-take_picture() {
+# Takes a screenshot of the image, with the mouse outside of it and without messages over it.
+take_image() {
     point_at $rest
-    until_true 90 no_message_over_the_picture || fail "a message stays over the picture: $(grep '"Card/' "$probe")"
+    until_true 90 no_message_over_the_image || fail "a message stays over the image: $(grep '"Card/' "$probe")"
     until_true 60 settled || fail "the window never settles"
     local x y w h
     x=$(number 1 x) y=$(number 1 y) w=$(image_size width) h=$(image_size height)
@@ -241,13 +241,13 @@ at_rest() {
     sleep 0.2
     [ -n "$before" ] && [ "$(widget "$1")" = "$before" ]
 }
-# take_last PICTURE: when the picture does not change any more, for changes that are no edits of the image.
+# take_last IMAGE: when the image does not change any more, for changes that are no edits of the image.
 take_last() {
-    stays() { mv "$1" earlier.png && sleep 0.5 && take_picture "$1" && [ "$(differing earlier.png "$1")" = 0 ]; }
-    take_picture "$1"
-    until_true 60 stays "$1" || fail "the picture never rests"
+    stays() { mv "$1" earlier.png && sleep 0.5 && take_image "$1" && [ "$(differing earlier.png "$1")" = 0 ]; }
+    take_image "$1"
+    until_true 60 stays "$1" || fail "the image never rests"
 }
-# at U V: screen position of a point in per cent of the picture's width and height.
+# at U V: screen position of a point in per cent of the image's width and height.
 at() { echo "$(number 1 x) $(image_size width) $(number 1 y) $(image_size height) $1 $2" | awk '{ printf "%d %d", $1 + $2 * $5 / 100, $3 + $4 * $6 / 100 }'; }
 click_at() {
     point_at $(at "$1" "$2")
@@ -294,32 +294,32 @@ holding() {
     "$@"
     for key in "${keys[@]}"; do input 1 xdotool keyup "$key"; done
 }
-# mean PICTURE: mean display luminance. clipped PICTURE: fraction of its pixels with a channel at white.
+# mean IMAGE: mean display luminance. clipped IMAGE: fraction of its pixels with a channel at white.
 mean() { convert "$1" -colorspace Gray -format '%[fx:mean]' info:; }
 clipped() { convert "$1" -depth 8 txt:- | awk -F'[(),]' 'NR > 1 { ++n; if ($3 >= 255 || $4 >= 255 || $5 >= 255) ++c } END { print c / n }'; }
-# A banner covers the middle of the picture: it is closed first.
+# A banner covers the middle of the image: it is closed first.
 well_exposed() {
     local m c
     m=$(mean "$1") c=$(clipped "$1")
     awk -v m="$m" -v c="$c" 'BEGIN { exit !(m >= 0.1 && m <= 0.6 && c < 0.05) }' || fail "$1 has a mean of $m, and $c of it is clipped"
 }
-# Number of pixels in which two pictures differ.
+# Number of pixels in which two images differ.
 differing() { compare -metric AE "$1" "$2" null: 2>&1 | awk '{ printf "%d", $1 }'; }
 expect_changed() { [ "$(differing "$1" "$2")" -gt 1000 ] || fail "$3 changes nothing"; }
-expect_same() { [ "$(differing "$1" "$2")" = 0 ] || fail "$3 does not restore the picture: $(differing "$1" "$2") pixels differ"; }
-# restores WHAT PICTURE STEPS: this many undo steps restore the picture.
+expect_same() { [ "$(differing "$1" "$2")" = 0 ] || fail "$3 does not restore the image: $(differing "$1" "$2") pixels differ"; }
+# restores WHAT IMAGE STEPS: this many undo steps restore the image.
 restores() {
     local i
     for i in $(seq "$3"); do after_edit press ctrl+z; done
-    take_picture undone.png
+    take_image undone.png
     expect_same "$2" undone.png "undoing $1"
 }
-# brightest PICTURE: position of its brightest point after blurring, as x and y from its upper left corner.
+# brightest IMAGE: position of its brightest point after blurring, as x and y from its upper left corner.
 brightest() {
     convert "$1" -colorspace Gray -blur 0x2 -depth 16 txt:- |
         awk -F'[,:() ]+' 'NR > 1 && $3 + 0 > best { best = $3 + 0; x = $1; y = $2 } END { print x, y }'
 }
-# expect_brightest PICTURE U V: it is at this position, in per cent of width and height.
+# expect_brightest IMAGE U V: it is at this position, in per cent of width and height.
 expect_brightest() {
     local x y
     read -r x y <<<"$(brightest "$1")"

@@ -20,7 +20,7 @@ constexpr int width = 96, height = 48;
 constexpr double tolerance = 1.0 / 255 + 2e-3;
 
 // Scene-linear values from -10 to +10 stops about middle grey in all hues, with alpha for coverage.
-std::vector<float> test_picture() {
+std::vector<float> test_image() {
     std::mt19937 rng(1);
     std::uniform_real_distribution<float> stops(-10, 10), hue(0, 1);
     std::vector<float> rgba;
@@ -90,25 +90,25 @@ TEST_F(DisplayPassTest, EveryViewAndLookMatchesFiles) {
         const DisplayParameters numbers{.exposure_ev = -0.7f, .gamma = gamma, .white_balance = white_balance({1, 0.7f, 0.35f})};
         EXPECT_EQ(numbers.needs_all_steps(), gamma != 1);
         for (const auto& display : color->displays())
-            for (const auto& view : color->views(display)) expect_twins(test_picture(), {display, view}, numbers);
-        for (const auto& look : color->looks()) expect_twins(test_picture(), {"", "", look}, numbers);
+            for (const auto& view : color->views(display)) expect_twins(test_image(), {display, view}, numbers);
+        for (const auto& look : color->looks()) expect_twins(test_image(), {"", "", look}, numbers);
     }
 }
 
 TEST_F(DisplayPassTest, UnprocessedBackgroundMatchesFiles) {
-    expect_twins(test_picture(), {},
+    expect_twins(test_image(), {},
                  {.exposure_ev = 2, .gamma = 0.8f, .white_balance = white_balance({1, 0.4f, 0.1f}), .background_as_it_is = true});
 }
 
 TEST_F(DisplayPassTest, FalseColoursMatchFiles) {
-    const std::vector<float> picture = test_picture();
+    const std::vector<float> image = test_image();
     for (const auto of : {FalseColorScale::Of::scene, FalseColorScale::Of::exposed}) {
         const DisplayParameters numbers{
             .exposure_ev = 1.3f, .white_balance = white_balance({0.6f, 0.8f, 1}), .false_color = {of, -7.1f, 4.9f}};
-        const std::vector<float> card = drawn(picture, {}, numbers), processor = computed(picture, {}, numbers);
+        const std::vector<float> card = drawn(image, {}, numbers), processor = computed(image, {}, numbers);
         int compared = 0;
         for (size_t i = 0; i < card.size() / 3; ++i) {
-            const Vec3 scene{picture[4 * i], picture[4 * i + 1], picture[4 * i + 2]};
+            const Vec3 scene{image[4 * i], image[4 * i + 1], image[4 * i + 2]};
             const float y =
                 luminance(of == FalseColorScale::Of::scene ? scene : transform_vector(numbers.white_balance, scene) * std::exp2(1.3f));
             const float at = (std::log2(y) + 7.1f) / 12 * false_color_bands;

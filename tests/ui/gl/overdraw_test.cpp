@@ -83,7 +83,7 @@ private:
 constexpr ImU32 grey = IM_COL32(60, 60, 60, 255), red = IM_COL32(200, 0, 0, 255), veil = IM_COL32(0, 90, 0, 100);
 
 TEST_F(Overdraw, BackgroundsAreClearedAndCoveredDrawsSkipped) {
-    list(0).AddRectFilled({0, 0}, {width, height}, red); // a picture, say
+    list(0).AddRectFilled({0, 0}, {width, height}, red); // an image, say
     list(0).AddRectFilled({5, 5}, {50, 50}, veil);
     list(1).AddRectFilled({20, 10}, {80, 60}, grey);
     list(1).AddRectFilled({25, 15}, {40, 20}, veil);

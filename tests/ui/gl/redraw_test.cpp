@@ -7,10 +7,10 @@ namespace {
 
 class RedrawTest : public test::ImGuiTest {
 protected:
-    bool is_needed(const char* text, ImTextureID picture = ImGui::GetIO().Fonts->TexID) {
+    bool is_needed(const char* text, ImTextureID image = ImGui::GetIO().Fonts->TexID) {
         in_window([&] {
             ImGui::TextUnformatted(text);
-            ImGui::Image(picture, {40, 40});
+            ImGui::Image(image, {40, 40});
         });
         ImGui::Render();
         return redraw_.is_needed(*ImGui::GetDrawData());

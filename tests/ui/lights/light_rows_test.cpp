@@ -70,10 +70,10 @@ TEST(LightRows, TellWhichLightsAreOn) {
     key.solo = true;
     s.set(s.key, key);
     for (const LightRows& group : light_rows(s.scene))
-        for (const LightRow& row : group.rows) EXPECT_EQ(row.shines, row.name == "Key") << row.name;
+        for (const LightRow& row : group.rows) EXPECT_EQ(row.enabled, row.name == "Key") << row.name;
     key.enabled = false;
     s.set(s.key, key);
-    EXPECT_FALSE(light_rows(s.scene)[0].rows[0].shines) << "mute wins";
+    EXPECT_FALSE(light_rows(s.scene)[0].rows[0].enabled) << "mute wins";
 }
 
 TEST(LightRows, MuteAndSoloWorkForAllRows) {
@@ -87,12 +87,12 @@ TEST(LightRows, MuteAndSoloWorkForAllRows) {
         };
         s.apply({with_switches(s.scene, row_called(name), true, true)});
         for (const char* other : {"Key", "Fill", "Neon", "Environment"})
-            EXPECT_EQ(row_called(other).shines, std::string(other) == name) << name << " solo, " << other;
+            EXPECT_EQ(row_called(other).enabled, std::string(other) == name) << name << " solo, " << other;
         s.apply({with_switches(s.scene, row_called(name), false, true)});
-        EXPECT_FALSE(row_called(name).shines) << name << ": mute wins";
-        EXPECT_FALSE(row_called("Fill").shines);
+        EXPECT_FALSE(row_called(name).enabled) << name << ": mute wins";
+        EXPECT_FALSE(row_called("Fill").enabled);
         s.apply({with_switches(s.scene, row_called(name), true, false)});
-        EXPECT_TRUE(row_called("Fill").shines);
+        EXPECT_TRUE(row_called("Fill").enabled);
     }
 }
 
@@ -103,7 +103,7 @@ TEST(LightRows, HiddenLightIsListedAsOff) {
     s.scene.nodes.set(s.key, key);
     const auto groups = light_rows(s.scene);
     EXPECT_EQ(groups[0].rows[0].name, "Key");
-    EXPECT_FALSE(groups[0].rows[0].shines);
+    EXPECT_FALSE(groups[0].rows[0].enabled);
 }
 
 TEST(LightRows, SharesAreThoseOfTheGroup) {

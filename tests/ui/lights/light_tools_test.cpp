@@ -61,7 +61,7 @@ TEST(NewLight, DisplaysAWhiteSurfaceAtThePivotAsWhite) {
     view.pivot_distance = 6;
     for (const Light::Kind kind : kinds) {
         for (const float exposure : {0.f, -3.f, 5.f}) {
-            const AddLight add = new_light(kind, view, spot_round_subject({}, view, {}), exposure);
+            const AddLight add = new_light(kind, view, placement_around_subject({}, view, {}), exposure);
             const Vec3d towards = pivot(view) - to_double(add.node.local.translation);
             const double luminance = illuminance(add.light, length(towards)) / std::numbers::pi;
             EXPECT_NEAR(luminance * std::exp2(exposure), 1, 1e-4);
@@ -86,13 +86,13 @@ TEST(NewLight, KeyFillAndRimAreAroundTheSubjectWithoutOverlap) {
     subject.include({1, 1, 1});
     Project project;
     project.scene.view = view_of_subject();
-    std::vector<LightSpot> spots;
+    std::vector<LightPlacement> spots;
     for (int i = 0; i < 12; ++i) {
-        const LightSpot spot = spot_round_subject(project.scene, project.scene.view, subject);
+        const LightPlacement spot = placement_around_subject(project.scene, project.scene.view, subject);
         const double outside = std::max({std::abs(spot.position.x), std::abs(spot.position.y), std::abs(spot.position.z)});
         EXPECT_GT(outside, 1) << "in the subject";
         const AddLight add = new_light(Light::Kind::rectangle, project.scene.view, spot, 0);
-        for (const LightSpot& other : spots)
+        for (const LightPlacement& other : spots)
             EXPECT_GT(length(spot.position - other.position), std::hypot(add.light.width, add.light.height)) << "the squares may overlap";
         spots.push_back(spot);
         const auto next = blush::apply(project, Edit{add});
@@ -111,7 +111,7 @@ TEST(NewLight, AvoidsTheGapBeforeAnObjectThatStandsClose) {
     Project project;
     Scene& scene = project.scene;
     scene.view = view_of_subject();
-    const LightSpot open = spot_round_subject(scene, scene.view, {});
+    const LightPlacement open = placement_around_subject(scene, scene.view, {});
     const Vec3d towards = normalize(open.position - open.target);
     const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, towards)), up = cross(towards, right);
     Geometry screen;
@@ -121,7 +121,7 @@ TEST(NewLight, AvoidsTheGapBeforeAnObjectThatStandsClose) {
     Node node;
     node.mesh = scene.meshes.add({"Screen", {{std::make_shared<const Geometry>(screen), {}}}});
     scene.nodes.add(node);
-    const LightSpot spot = spot_round_subject(scene, scene.view, world_bounds(scene));
+    const LightPlacement spot = placement_around_subject(scene, scene.view, world_bounds(scene));
     EXPECT_GT(length(spot.position - spot.target), 0.4 * length(open.position - open.target));
 }
 
@@ -147,24 +147,24 @@ TEST(NewLight, StaysInARoomThatIsSeenFromOutside) {
               : quad(scene, {-0.1f, 0.1f, z}, {0.1f, 0.1f, z}, {0.1f, -0.1f, z}, {-0.1f, -0.1f, z});
     scene.view = view_of_subject();
     for (int i = 0; i < 9; ++i) {
-        const LightSpot spot = spot_round_subject(scene, scene.view, world_bounds(scene));
+        const LightPlacement spot = placement_around_subject(scene, scene.view, world_bounds(scene));
         EXPECT_LT(std::max({std::abs(spot.position.x), std::abs(spot.position.y), -spot.position.z}), 1)
             << "light " << i << " is behind a wall";
         const auto next = blush::apply(project, Edit{new_light(Light::Kind::point, scene.view, spot, 0)});
         ASSERT_TRUE(next);
         project = *next;
     }
-    const LightSpot low = spot_over_surface(scene, scene.view, {{0.5, 0.9, 0}, {0, 1, 0}, {}});
+    const LightPlacement low = placement_above_surface(scene, scene.view, {{0.5, 0.9, 0}, {0, 1, 0}, {}});
     EXPECT_LT(low.position.y, 1) << "under the ceiling";
 }
 
 TEST(NewLight, LightsTheSurfaceUnderTheCursorFromTheViewersSide) {
     const View view = view_of_subject();
     const SurfacePoint surface{{0.2, 1, 0}, {0, 1, 0}, {}};
-    const LightSpot spot = spot_over_surface({}, view, surface);
+    const LightPlacement spot = placement_above_surface({}, view, surface);
     EXPECT_GT(dot(spot.position - surface.position, surface.normal), 0.1);
     EXPECT_EQ(spot.target, surface.position);
-    const LightSpot behind = spot_over_surface({}, view, {{0.2, 0, 0}, {0, -1, 0}, {}});
+    const LightPlacement behind = placement_above_surface({}, view, {{0.2, 0, 0}, {0, -1, 0}, {}});
     EXPECT_GT(behind.position.y, 0) << "a back face is lit on the visible side";
 }
 

@@ -166,7 +166,7 @@ TEST(LightGroups, NewNamesAreUnique) {
 TEST(EnvironmentRotation, FollowsTheMouse) {
     Lens lens;
     lens.yfov_radians = 1.2f;
-    // One per cent of the picture in its centre, as an angle.
+    // One per cent of the image in its centre, as an angle.
     const double angle = std::atan(0.01 * 2 * std::tan(0.6)) * 180 / 3.14159265;
     EXPECT_NEAR(turned_rotation(10, 0.01, lens), 10 - angle, 1e-3) << "to the right is clockwise seen from above";
     EXPECT_NEAR(turned_rotation(-179, 0.1, lens), 173.2, 0.1) << "around";

@@ -62,7 +62,7 @@ Project with_long_names() {
     s.environment.file = "/home/somebody/" + long_name("Folder") + "/" + long_name("Panorama") + ".exr";
     s.mix.grouping = LightMix::Grouping::by_light;
     project.view.meters = {{long_name("Meter"), s.nodes.entries().front().id, {0, 0, 0}, {0, 1, 0}, 1}, {"m", {}, {}, {0, 0, 1}, 1}};
-    project.view.measured = PictureRegion{0.1f, 0.1f, 0.5f, 0.5f};
+    project.view.measured = ImageRegion{0.1f, 0.1f, 0.5f, 0.5f};
     return project;
 }
 
@@ -75,7 +75,7 @@ SnapshotPtr snapshot(uint64_t id, const Project& project) {
     auto frame = std::make_shared<Frame>();
     frame->width = frame->height = 1;
     frame->rgba.assign(4, 0.5f);
-    s->pictures.frame = frame;
+    s->images.frame = frame;
     s->thumbnail = thumbnail_of(*frame);
     s->project = project;
     s->file = "/home/somebody/" + long_name("Folder") + "/" + long_name("Snapshot", id) + ".exr";
@@ -299,16 +299,16 @@ TEST_F(LongNames, PopupsAndDialogs) {
         extra = [](PanelContext& c, const Layout&) { draw_shortcut_sheet(c); };
         expect_readable("shortcuts");
         ui.show_shortcuts = false;
-        ui.question = Question{.text = "Save " + long_name("File") + " before it is closed?",
-                               .details = long_name("Details"),
-                               .choices = {"Save", "Discard", "Cancel"}};
-        extra = [](PanelContext& c, const Layout&) { draw_question(c); };
-        expect_readable("question");
-        ui.question.reset();
+        ui.dialog = ModalDialog{.text = "Save " + long_name("File") + " before it is closed?",
+                                .details = long_name("Details"),
+                                .choices = {"Save", "Discard", "Cancel"}};
+        extra = [](PanelContext& c, const Layout&) { draw_modal_dialog(c); };
+        expect_readable("modal dialog");
+        ui.dialog.reset();
     });
 }
 
-// What is written into the picture, in the viewport as wide as the docks leave it and in a narrow one.
+// Text over the image, in the viewport beside open docks and in a narrow one.
 TEST_F(LongNames, ViewportOverlays) {
     ui.home = home_at_opening(document.project().scene);
     ASSERT_TRUE(ui.home.camera);
@@ -329,14 +329,14 @@ TEST_F(LongNames, ViewportOverlays) {
             expect_readable(fmt::format("{}, {} of the viewport", what, s));
         }
     };
-    ui.aov = {PictureView::Show::group, 0};
+    ui.aov = {ImageView::Show::group, 0};
     at_all_sizes([&] {
         overlay = [&](PanelContext& c, ImDrawList& draw, const ImageRect& seen) {
             draw_camera_frame(c, draw, seen, seen, true);
             draw_aov_bar(c, seen);
-            draw_map_scale(draw, seen, *frame, {PictureView::Show::depth});
+            draw_map_scale(draw, seen, *frame, {ImageView::Show::depth});
         };
-        expect_all_readable("passes, map scale and free view");
+        expect_all_readable("AOVs, map scale and free view");
         overlay = [&](PanelContext& c, ImDrawList& draw, const ImageRect& seen) {
             const Projection towards_meter({.position = {0, 0, 4}}, double(seen.width) / seen.height);
             draw_meters(draw, seen, towards_meter, c.scene(), {.meters = {{long_name("Meter"), {}, {}, {0, 0, 1}, 1}}}, c.ui.meters);
@@ -344,7 +344,7 @@ TEST_F(LongNames, ViewportOverlays) {
         expect_all_readable("a meter");
         overlay = [&](PanelContext&, ImDrawList&, const ImageRect& seen) { name_sides(long_name("A"), long_name("B"), seen); };
         expect_all_readable("both sides of a wipe");
-        overlay = [&](PanelContext&, ImDrawList&, const ImageRect& seen) { name_picture("A   " + long_name("A"), seen); };
+        overlay = [&](PanelContext&, ImDrawList&, const ImageRect& seen) { name_image("A   " + long_name("A"), seen); };
         expect_all_readable("one side");
         overlay = [&](PanelContext&, ImDrawList& draw, const ImageRect&) {
             draw_hint(draw, "Scale along the local axis X: 12345.678   Enter or click: confirm.  Esc: cancel");

@@ -119,7 +119,7 @@ Project with_odd_values(Project project) {
     project.view.auto_exposure = AutoExposure::highlights;
     project.view.false_color = {FalseColor::Of::lux, 1e-20f, 1e30f};
     project.view.meters = {{"far away", {4711}, {1e30f, 0, -1e30f}, {0, 1e-20f, 0}, 1e30f}};
-    project.view.measured = PictureRegion{0.999f, 0, 0.001f, 1};
+    project.view.measured = ImageRegion{0.999f, 0, 0.001f, 1};
     return project;
 }
 
@@ -201,13 +201,13 @@ TEST_F(Panels, EveryModeOfTheDenoiseView) {
     auto raw = std::make_shared<Frame>();
     raw->width = raw->height = 2;
     raw->rgba.assign(16, 0.5f);
-    auto picture = std::make_shared<DenoisedPicture>();
-    picture->width = picture->height = 1;
-    picture->denoised.rgb.assign(3, 0.25f);
-    picture->denoised.sanitised = 7;
+    auto image = std::make_shared<DenoisedImage>();
+    image->width = image->height = 1;
+    image->denoised.rgb.assign(3, 0.25f);
+    image->denoised.sanitised = 7;
     ui.tab = InspectorTab::display;
     for (const auto show : {DenoiseView::Show::raw, DenoiseView::Show::denoised, DenoiseView::Show::blend, DenoiseView::Show::difference})
-        for (const DenoisedPtr& denoised : {DenoisedPtr(), DenoisedPtr(picture)})
+        for (const DenoisedPtr& denoised : {DenoisedPtr(), DenoisedPtr(image)})
             for (const char* problem : {"", "the weights are not there"}) {
                 ui.denoise = {show, 0.5f};
                 ui.pixel = PixelProbe{0.9, 0.9};
@@ -349,7 +349,7 @@ TEST_F(Panels, EveryStateOfTheConvergencePanel) {
     view.renaming = view.runs.live()->id;
     all_settings();
     for (int state = 0; state <= int(ReferenceStatus::State::there); ++state) {
-        view.news = {ReferenceStatus::State(state), 0.999, 64, 1e-3, "It could not be stored."};
+        view.reference_status = {ReferenceStatus::State(state), 0.999, 64, 1e-3, "It could not be stored."};
         draw_all(document, {});
     }
     EXPECT_FALSE(document.can_undo());
@@ -364,15 +364,15 @@ TEST_F(Panels, TheLightMixShowsItsGroups) {
     sample.project.scene.mix.grouping = LightMix::Grouping::by_light;
     sample.project.scene.mix.channels.push_back({.group = "Lamp", .intensity = 2, .use_temperature = true});
     Document document(sample.project);
-    auto picture = std::make_shared<Frame>();
-    picture->width = picture->height = 1;
-    picture->rgba = {1, 1, 1, 1};
-    picture->light_groups = std::make_shared<const LightGroups>(make_light_groups(sample.project.scene));
-    picture->groups = {{{1, 1, 1}}, {{2, 2, 2}}};
-    picture->gains = {{1, 1, 1}, {2, 2, 2}};
-    picture->group_shares.resize(2);
-    frame = picture;
-    const std::optional<Mixing> mixing = mixing_of(*picture->light_groups, sample.project.scene);
+    auto image = std::make_shared<Frame>();
+    image->width = image->height = 1;
+    image->rgba = {1, 1, 1, 1};
+    image->light_groups = std::make_shared<const LightGroups>(make_light_groups(sample.project.scene));
+    image->groups = {{{1, 1, 1}}, {{2, 2, 2}}};
+    image->gains = {{1, 1, 1}, {2, 2, 2}};
+    image->group_shares.resize(2);
+    frame = image;
+    const std::optional<Mixing> mixing = mixing_of(*image->light_groups, sample.project.scene);
     ASSERT_TRUE(mixing);
     for (const char* unfolded : {"", "Lamp"})
         for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {
@@ -397,7 +397,7 @@ TEST_F(Panels, TheRouletteLabMeasuresWhileItIsOpen) {
     EXPECT_FALSE(ui.roulette.runner);
     draw();
     ASSERT_TRUE(ui.roulette.runner);
-    while (ui.roulette.runner->state().answer.rounds < 20) draw();
+    while (ui.roulette.runner->state().output.rounds < 20) draw();
     draw();
     EXPECT_FALSE(document.can_undo()) << "drawing edits nothing";
     PanelContext c{document, ui, color, frame, {}, 64, 48};

@@ -27,8 +27,8 @@ FramePtr plain_frame(int width, int height, float value) {
 
 Snapshot snapshot(float value, int width = 32, int height = 20) {
     Snapshot s;
-    s.pictures.frame = plain_frame(width, height, value);
-    s.thumbnail = thumbnail_of(*s.pictures.frame);
+    s.images.frame = plain_frame(width, height, value);
+    s.thumbnail = thumbnail_of(*s.images.frame);
     s.time = "12:34";
     return s;
 }
@@ -83,13 +83,13 @@ TEST(SnapshotMemory, CountsBytes) {
     auto film = std::make_shared<FilmState>();
     film->planes = {{.name = "even.R", .sums = std::vector<double>(100)}, {.name = "depth", .words = std::vector<uint32_t>(100)}};
     s.film = film;
-    auto denoised = std::make_shared<DenoisedPicture>();
+    auto denoised = std::make_shared<DenoisedImage>();
     denoised->denoised.rgb.resize(300);
-    s.pictures.denoised = denoised;
+    s.images.denoised = denoised;
     s.error.resize(100);
     EXPECT_EQ(bytes_of(s), 100 * (4 * sizeof(float) + sizeof(double) + sizeof(uint32_t) + 3 * sizeof(float) + sizeof(Vec3)));
     const std::string figures = s.figures();
-    s.let_go();
+    s.unload();
     EXPECT_EQ(bytes_of(s), 0u);
     EXPECT_EQ(s.figures(), figures) << "unloaded snapshots keep their figures";
 }
@@ -100,7 +100,7 @@ TEST(SnapshotMemory, UnloadsLeastRecentlyUsedFirst) {
     const size_t each = bytes_of(*v.list[0]);
     const auto leaving = [&](size_t limit) {
         std::vector<uint64_t> ids;
-        for (const SnapshotPtr& s : beyond_memory(v, limit)) ids.push_back(s->id);
+        for (const SnapshotPtr& s : snapshots_to_unload(v, limit)) ids.push_back(s->id);
         return ids;
     };
     EXPECT_TRUE(leaving(4 * each).empty());
@@ -111,7 +111,7 @@ TEST(SnapshotMemory, UnloadsLeastRecentlyUsedFirst) {
     EXPECT_EQ(leaving(2 * each), (std::vector<uint64_t>{3, 4}));
     v.compare = {Mode::wipe, 3, live_image};
     EXPECT_EQ(leaving(0), (std::vector<uint64_t>{4})) << "pinned, compared and last used ones stay";
-    v.list[3]->let_go();
+    v.list[3]->unload();
     EXPECT_TRUE(leaving(0).empty()) << "it has nothing more to unload";
 }
 
@@ -127,7 +127,7 @@ TEST(Snapshots, ThumbnailsKeepAspectAndMean) {
 }
 
 TEST(Differences, MatchTheirDefinition) {
-    DifferenceQuestion q;
+    DifferenceInput q;
     q.a = plain_frame(16, 16, 3);
     q.b = plain_frame(16, 16, 1);
     const Difference absolute = difference_of(q);

@@ -19,7 +19,7 @@ void expect_near(const Vec3d& a, const Vec3d& b, double within = close) {
     EXPECT_NEAR(a.z, b.z, within);
 }
 
-// Seen from +Z; the pivot is at the centre of a picture of 800 x 600, where 1 m is about 55 pixels.
+// Seen from +Z; the pivot is at the centre of an image of 800 x 600, where 1 m is about 55 pixels.
 struct Bench {
     View view;
     ImageRect image{0, 0, 800, 600};

@@ -32,7 +32,7 @@ TEST(Pick, MissIsEmpty) {
     EXPECT_FALSE(p.depth);
 }
 
-TEST(Pick, OutsideThePictureOrItsPlanesIsEmpty) {
+TEST(Pick, OutsideTheImageOrItsPlanesIsEmpty) {
     for (const auto& [u, v] : {std::pair{-0.1, 0.5}, {1.0, 0.5}, {0.5, 1.0}, {0.5, -1e-9}}) EXPECT_FALSE(pick(sample_frame(), u, v).node);
     EXPECT_FALSE(pick(Frame{}, 0.5, 0.5).depth);
     Frame bare = sample_frame();

@@ -1,4 +1,4 @@
-// View modes of raw and denoised pictures.
+// View modes of raw and denoised images.
 #include "ui/views/denoise_view.h"
 
 #include <gtest/gtest.h>
@@ -17,12 +17,12 @@ Frame frame_of(int width, int height) {
     return frame;
 }
 
-DenoisedPicture denoised_of(int width, int height, float value) {
-    DenoisedPicture picture;
-    picture.width = width;
-    picture.height = height;
-    for (int i = 0; i < 3 * width * height; ++i) picture.denoised.rgb.push_back(value + float(i / 3));
-    return picture;
+DenoisedImage denoised_of(int width, int height, float value) {
+    DenoisedImage image;
+    image.width = width;
+    image.height = height;
+    for (int i = 0; i < 3 * width * height; ++i) image.denoised.rgb.push_back(value + float(i / 3));
+    return image;
 }
 
 TEST(DenoiseView, ToggleSwitchesBetweenRawAndDenoised) {
@@ -37,7 +37,7 @@ TEST(DenoiseView, ToggleSwitchesBetweenRawAndDenoised) {
 
 TEST(DenoiseView, EachModeHasItsWeights) {
     const Frame frame = frame_of(3, 2);
-    const DenoisedPicture denoised = denoised_of(3, 2, 10);
+    const DenoisedImage denoised = denoised_of(3, 2, 10);
     const auto middle = [&](Show show) { return mixed_pixel(frame, &denoised, mix_of({show, 0.25f}, true), 1, 1); };
     EXPECT_EQ(middle(Show::raw), (Vec3{4, 8, 12}));
     EXPECT_EQ(middle(Show::denoised), (Vec3{14, 14, 14}));
@@ -45,32 +45,32 @@ TEST(DenoiseView, EachModeHasItsWeights) {
     EXPECT_EQ(middle(Show::difference), (Vec3{10, 6, 2})) << "its size, whichever is brighter";
 }
 
-TEST(DenoiseView, WithoutADenoisedPictureTheRawOneIsShown) {
+TEST(DenoiseView, WithoutADenoisedImageTheRawOneIsShown) {
     const Frame frame = frame_of(2, 1);
     for (const Show show : {Show::raw, Show::denoised, Show::blend, Show::difference}) {
-        const PictureMix mix = mix_of({show, 0.5f}, false);
-        EXPECT_EQ(mix, PictureMix{});
-        EXPECT_EQ(mixed_picture(frame, nullptr, mix), (std::vector<float>{0, 0, 0, 1, 2, 3}));
+        const ImageMix mix = mix_of({show, 0.5f}, false);
+        EXPECT_EQ(mix, ImageMix{});
+        EXPECT_EQ(mixed_image(frame, nullptr, mix), (std::vector<float>{0, 0, 0, 1, 2, 3}));
     }
 }
 
-TEST(DenoiseView, CoarserDenoisedPictureIsUpscaled) {
+TEST(DenoiseView, CoarserDenoisedImageIsUpscaled) {
     const Frame frame = frame_of(5, 4);
-    const DenoisedPicture coarse = denoised_of(2, 2, 0);
+    const DenoisedImage coarse = denoised_of(2, 2, 0);
     EXPECT_EQ(denoised_pixel(frame, coarse, 0, 0).x, 0);
     EXPECT_EQ(denoised_pixel(frame, coarse, 4, 0).x, 1);
     EXPECT_EQ(denoised_pixel(frame, coarse, 0, 3).x, 2);
     EXPECT_EQ(denoised_pixel(frame, coarse, 4, 3).x, 3);
     const Frame tiny = frame_of(1, 1);
     EXPECT_EQ(denoised_pixel(tiny, coarse, 0, 0).x, 3) << "the pixel under its middle";
-    EXPECT_EQ(mixed_picture(frame, &coarse, mix_of({Show::denoised, 0}, true)).size(), 5u * 4 * 3);
+    EXPECT_EQ(mixed_image(frame, &coarse, mix_of({Show::denoised, 0}, true)).size(), 5u * 4 * 3);
 }
 
-TEST(DenoiseView, TextNamesThePictureAndItsDelay) {
+TEST(DenoiseView, TextNamesTheImageAndItsDelay) {
     Frame frame = frame_of(4, 4);
     frame.samples = 48;
     frame.seconds = 7.5;
-    DenoisedPicture denoised = denoised_of(4, 4, 0);
+    DenoisedImage denoised = denoised_of(4, 4, 0);
     denoised.samples = 16;
     denoised.rendered_seconds = 6;
     EXPECT_EQ(shown_text({Show::raw, 0}, frame, &denoised), "raw");

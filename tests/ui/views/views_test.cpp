@@ -3,7 +3,7 @@
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/aov_view.h"
 #include "ui/snapshots/heat_map.h"
-#include "ui/snapshots/picture_pixels.h"
+#include "ui/snapshots/image_pixels.h"
 #include "ui/views/bounces_view.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace blush::TEST_FILE {
 namespace {
 
 using Mode = BouncesView::Mode;
-using Show = PictureView::Show;
+using Show = ImageView::Show;
 
 Frame frame_with_bounces() {
     Frame f;
@@ -33,7 +33,7 @@ BouncesView view_of(Mode mode, int bounce = 1) {
 
 TEST(BouncesView, MixesThePlanes) {
     const Frame f = frame_with_bounces();
-    const auto first = [&](const BouncesView& v) { return pixels_of(f, picture_view(v, 3))[0]; };
+    const auto first = [&](const BouncesView& v) { return pixels_of(f, image_view(v, 3))[0]; };
     EXPECT_EQ(first(view_of(Mode::single, 2)), 4);
     EXPECT_EQ(first(view_of(Mode::cumulative, 1)), 3);
     EXPECT_EQ(first(view_of(Mode::direct)), 3);
@@ -41,33 +41,33 @@ TEST(BouncesView, MixesThePlanes) {
     BouncesView gains = view_of(Mode::gains);
     gains.gains = {0, 0.5f, 2};
     EXPECT_EQ(first(gains), 9);
-    EXPECT_EQ(pixels_of(f, picture_view(gains, 3)).size(), f.rgba.size());
+    EXPECT_EQ(pixels_of(f, image_view(gains, 3)).size(), f.rgba.size());
 }
 
-TEST(BouncesView, AllGainsOneIsThePicture) {
+TEST(BouncesView, AllGainsOneIsTheImage) {
     const Frame f = frame_with_bounces();
-    EXPECT_FALSE(is_special(f, picture_view(view_of(Mode::picture), 3)));
-    EXPECT_FALSE(is_special(f, picture_view(view_of(Mode::cumulative, 2), 3)));
-    EXPECT_FALSE(is_special(f, picture_view(view_of(Mode::gains), 3))) << "all gains are 1";
-    EXPECT_TRUE(is_special(f, picture_view(view_of(Mode::single, 2), 3)));
-    EXPECT_FALSE(is_special(Frame{}, picture_view(view_of(Mode::single, 2), 3))) << "no planes yet";
+    EXPECT_FALSE(is_special(f, image_view(view_of(Mode::image), 3)));
+    EXPECT_FALSE(is_special(f, image_view(view_of(Mode::cumulative, 2), 3)));
+    EXPECT_FALSE(is_special(f, image_view(view_of(Mode::gains), 3))) << "all gains are 1";
+    EXPECT_TRUE(is_special(f, image_view(view_of(Mode::single, 2), 3)));
+    EXPECT_FALSE(is_special(Frame{}, image_view(view_of(Mode::single, 2), 3))) << "no planes yet";
     BouncesView closed = view_of(Mode::single);
     closed.open = false;
-    EXPECT_FALSE(is_special(f, picture_view(closed, 3)));
+    EXPECT_FALSE(is_special(f, image_view(closed, 3)));
 }
 
-TEST(BouncesView, CaptionSaysNotTheWholePicture) {
+TEST(BouncesView, CaptionSaysNotTheWholeImage) {
     Frame f = frame_with_bounces();
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::single, 1), 3)), "Bounce 1 only: not the whole picture");
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::indirect), 3)), "Bounce 2+ only: not the whole picture");
-    EXPECT_EQ(caption_of(f, picture_view(view_of(Mode::direct), 3)), "Bounces 0, 1 only: not the whole picture");
+    EXPECT_EQ(caption_of(f, image_view(view_of(Mode::single, 1), 3)), "Bounce 1 only: not the whole image");
+    EXPECT_EQ(caption_of(f, image_view(view_of(Mode::indirect), 3)), "Bounce 2+ only: not the whole image");
+    EXPECT_EQ(caption_of(f, image_view(view_of(Mode::direct), 3)), "Bounces 0, 1 only: not the whole image");
     BouncesView gains = view_of(Mode::gains);
     gains.gains = {1, 1, 1.5f};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture");
+    EXPECT_EQ(caption_of(f, image_view(gains, 3)), "Bounces with gains: not the physical image");
     f.gains = {{1, 1, 1}, {1, 1, 1}};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture");
+    EXPECT_EQ(caption_of(f, image_view(gains, 3)), "Bounces with gains: not the physical image");
     f.gains[1] = {1, 0, 1};
-    EXPECT_EQ(caption_of(f, picture_view(gains, 3)), "Bounces with gains: not the physical picture, without the light mix");
+    EXPECT_EQ(caption_of(f, image_view(gains, 3)), "Bounces with gains: not the physical image, without the light mix");
 }
 
 TEST(BouncesView, PlaysInALoop) {
@@ -119,13 +119,13 @@ Frame frame_with_planes() {
     f.gains = {{1, 1, 1}, {0.5f, 0.5f, 0.5f}};
     return f;
 }
-Vec3 shown_at(const Frame& f, const PictureView& view, size_t pixel) {
+Vec3 shown_at(const Frame& f, const ImageView& view, size_t pixel) {
     const std::vector<float> p = pixels_of(f, view);
     return {p[4 * pixel], p[4 * pixel + 1], p[4 * pixel + 2]};
 }
 float encoded(float linear) { return srgb_from_linear(linear); }
 
-TEST(AovView, DataPassesAreDisplayValues) {
+TEST(AovView, DataAovsAreDisplayValues) {
     const Frame f = frame_with_planes();
     EXPECT_EQ(shown_at(f, {Show::albedo}, 0), (Vec3{0.2f, 0.4f, 0.6f}));
     const Vec3 normal = shown_at(f, {Show::normal}, 1);
@@ -160,11 +160,11 @@ TEST(AovView, IdsHaveFixedColours) {
 
 TEST(AovView, MapsErrorAndSamplesWithAScale) {
     const Frame f = frame_with_planes();
-    EXPECT_EQ(shown_at(f, {Show::error}, 1), heat(0)) << "no error";
-    EXPECT_EQ(shown_at(f, {Show::error}, 3), heat(1)) << "larger than the value";
+    EXPECT_EQ(shown_at(f, {Show::error}, 1), heat_map_color(0)) << "no error";
+    EXPECT_EQ(shown_at(f, {Show::error}, 3), heat_map_color(1)) << "larger than the value";
     EXPECT_NEAR(double(relative_error(f, 2)), 0.01, 1e-4) << "of black, as relMSE weighs it";
-    EXPECT_EQ(shown_at(f, {Show::samples}, 3), heat(1));
-    EXPECT_EQ(shown_at(f, {Show::samples}, 0), heat(0.25f));
+    EXPECT_EQ(shown_at(f, {Show::samples}, 3), heat_map_color(1));
+    EXPECT_EQ(shown_at(f, {Show::samples}, 0), heat_map_color(0.25f));
     EXPECT_EQ(map_scale(f, Show::depth)->low, "2 m");
     EXPECT_EQ(map_scale(f, Show::depth)->high, "4 m");
     EXPECT_EQ(map_scale(f, Show::samples)->high, "32");
@@ -172,13 +172,13 @@ TEST(AovView, MapsErrorAndSamplesWithAScale) {
     EXPECT_FALSE(map_scale(f, Show::albedo));
 }
 
-TEST(AovView, ListsPassesAndWhatTheyNeed) {
+TEST(AovView, ListsAovsAndWhatTheyNeed) {
     const Frame f = frame_with_planes();
     const auto find = [](const std::vector<AovEntry>& list, const AovView& v) { return *std::ranges::find(list, v, &AovEntry::view); };
     const Frame bounced = frame_with_bounces();
     const std::vector<AovEntry> list = aov_list(&f);
     EXPECT_EQ(find(list, {Show::group, 1}).name, "Group Fill");
-    EXPECT_EQ(shown_at(f, picture_view(AovView{Show::group, 1}, 0), 1), (Vec3{1, 1, 1})) << "in the current mix";
+    EXPECT_EQ(shown_at(f, image_view(AovView{Show::group, 1}, 0), 1), (Vec3{1, 1, 1})) << "in the current mix";
     EXPECT_FALSE(find(list, {Show::bounces, 2}).needs.empty());
     EXPECT_FALSE(find(aov_list(nullptr), {Show::group}).possible);
     EXPECT_TRUE(find(aov_list(&bounced), {Show::bounces, 2}).needs.empty());

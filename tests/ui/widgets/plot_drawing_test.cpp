@@ -1,7 +1,7 @@
 // Charts in the window and in files: same layout, drawn by ImGui and rasterized without OpenGL; texts of the Convergence panel.
 #include "tests/ui/imgui_test.h"
 #include "ui/gl/draw_list_image.h"
-#include "ui/views/convergence_picture.h"
+#include "ui/views/convergence_image.h"
 #include "ui/widgets/plot_drawing.h"
 #include "ui/window/time_text.h"
 
@@ -36,7 +36,7 @@ TEST_F(PlotDrawing, ARectangleCoversItsPixelsOnce) {
             EXPECT_NEAR(red(rgb, x, y), x >= 5 && x < 25 && y >= 7 && y < 22 ? 128 / 255.f : 0.f, 1e-5f) << x << ", " << y;
 }
 
-TEST_F(PlotDrawing, ClipsToClipRectanglesAndThePicture) {
+TEST_F(PlotDrawing, ClipsToClipRectanglesAndTheImage) {
     const std::vector<float> rgb = drawn([](ImDrawList& list) {
         list.PushClipRect({10, 10}, {20, 20}, true);
         list.AddRectFilled({-1e6f, -1e6f}, {1e6f, 1e6f}, IM_COL32_WHITE);
@@ -57,19 +57,19 @@ TEST_F(PlotDrawing, DrawsText) {
 TEST_F(PlotDrawing, ChartPointsMatchTheLayout) {
     Plot plot{"title",          "x", "y", {{"a", "#ff0000", {{1, 1}, {10, 0.3}, {100, 0.1, 0.05, 0.2}}}}, {{5, "edit", "#00ff00"}},
               {{0.2, "target"}}};
-    const ChartPicture picture = draw_chart_picture(plot);
-    ASSERT_EQ(picture.rgb.size(), size_t(3 * picture.width * picture.height));
+    const ChartImage image = draw_chart_image(plot);
+    ASSERT_EQ(image.rgb.size(), size_t(3 * image.width * image.height));
     const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
     plot.y_label.clear();
-    const PlotLayout l = compute_plot_layout(plot, plot_metrics({float(picture.width), float(picture.height)}, font, font.FontSize, true));
+    const PlotLayout l = compute_plot_layout(plot, plot_metrics({float(image.width), float(image.height)}, font, font.FontSize, true));
     for (const PlotPixel& p : l.curves[0].line) {
-        const float* rgb = &picture.rgb[3 * (size_t(p.y) * size_t(picture.width) + size_t(p.x))];
+        const float* rgb = &image.rgb[3 * (size_t(p.y) * size_t(image.width) + size_t(p.x))];
         EXPECT_GT(rgb[0], 0.9f);
         EXPECT_LT(rgb[1], 0.1f);
     }
-    EXPECT_TRUE(std::ranges::all_of(picture.rgb, [](float v) { return v >= 0 && v <= 1; }));
+    EXPECT_TRUE(std::ranges::all_of(image.rgb, [](float v) { return v >= 0 && v <= 1; }));
     // A chart without curves still has its axes.
-    const auto empty = draw_chart_picture({});
+    const auto empty = draw_chart_image({});
     const auto [darkest, brightest] = std::ranges::minmax_element(empty.rgb);
     EXPECT_GT(*brightest - *darkest, 0.1f);
 }
@@ -100,8 +100,8 @@ TEST(ConvergenceTexts, ShowUnknownValuesAsUnknown) {
     EXPECT_EQ(elapsed_text(std::numeric_limits<double>::quiet_NaN()), "-");
     EXPECT_EQ(guessed_time_text(7200), "2.0 h");
     const ConvergencePoint p{ConvergencePoint::Kind::denoised, 2, 64, {true, 0.5, 0.4, 0.6}, {}};
-    EXPECT_EQ(readout_text("run", p, ErrorMetric::rmse), "run\ndenoised picture\n2.0 s   64 spp\nRMSE 0.5 (0.4 to 0.6)");
-    EXPECT_EQ(readout_text("run", p, ErrorMetric::relmse), "run\ndenoised picture\n2.0 s   64 spp\nrelMSE not known yet");
+    EXPECT_EQ(readout_text("run", p, ErrorMetric::rmse), "run\ndenoised image\n2.0 s   64 spp\nRMSE 0.5 (0.4 to 0.6)");
+    EXPECT_EQ(readout_text("run", p, ErrorMetric::relmse), "run\ndenoised image\n2.0 s   64 spp\nrelMSE not known yet");
 }
 
 } // namespace

@@ -51,7 +51,7 @@ protected:
         io.KeysDown[key] = false;
         frame();
     }
-    void wish(ValueAction what) {
+    void request(ValueAction what) {
         request_value_action(ui, what);
         frame();
     }
@@ -94,14 +94,14 @@ protected:
             changed |= f.changed();
         });
     }
-    void wish(ValueAction what) {
+    void request(ValueAction what) {
         changed = false;
         request_value_action(ui, what);
         frame();
     }
     void paste(const char* text) {
         ImGui::SetClipboardText(text);
-        wish(ValueAction::paste);
+        request(ValueAction::paste);
     }
 
     UiState ui;
@@ -111,7 +111,7 @@ protected:
 };
 
 TEST_F(ColorField, AcceptsEachColourFormat) {
-    wish(ValueAction::copy_hex);
+    request(ValueAction::copy_hex);
     EXPECT_STREQ(ImGui::GetClipboardText(), "#89bc47");
     paste("#ff0080");
     EXPECT_TRUE(changed);
@@ -119,11 +119,11 @@ TEST_F(ColorField, AcceptsEachColourFormat) {
     EXPECT_EQ(value.y, 0);
     EXPECT_NEAR(value.z, 0.2158605f, 1e-5);
     value = {0.25f, 0.5f, 0.0625f};
-    wish(ValueAction::copy);
+    request(ValueAction::copy);
     EXPECT_STREQ(ImGui::GetClipboardText(), "0.25, 0.5, 0.0625");
-    wish(ValueAction::copy_srgb);
+    request(ValueAction::copy_srgb);
     value = {0, 0, 0};
-    wish(ValueAction::paste);
+    request(ValueAction::paste);
     EXPECT_NEAR(value.x, 0.25, 1e-5);
     EXPECT_NEAR(value.z, 0.0625, 1e-5);
 }
@@ -141,7 +141,7 @@ TEST_F(ColorField, RejectsInvalidColours) {
 }
 
 TEST_F(ColorField, EyedropperSetsThePickedColour) {
-    wish(ValueAction::pick);
+    request(ValueAction::pick);
     EXPECT_EQ(ui.tool, ViewTool::pick_color);
     ui.values.picked = Vec3{0.1f, 7.f, -0.5f};
     changed = false;
@@ -314,20 +314,20 @@ TEST_F(Widgets, TabMovesToTheNextField) {
 TEST_F(Widgets, KeysOverAFieldCopyPasteAndReset) {
     ASSERT_TRUE(document.apply(SetView{{.exposure_ev = 1.2345678f}}));
     move(middle());
-    wish(ValueAction::copy);
+    request(ValueAction::copy);
     EXPECT_STREQ(ImGui::GetClipboardText(), "1.2345678");
-    wish(ValueAction::reset);
+    request(ValueAction::reset);
     EXPECT_EQ(value(), 2.5f);
-    wish(ValueAction::paste);
+    request(ValueAction::paste);
     EXPECT_EQ(value(), 1.2345678f);
     ImGui::SetClipboardText(" -1e30\n");
-    wish(ValueAction::paste);
+    request(ValueAction::paste);
     EXPECT_EQ(value(), -10) << "within the limits";
     EXPECT_EQ(document.undo_labels().size(), 4u) << "each is its own undo step";
     rest();
     move(-100);
     ImGui::SetClipboardText("3");
-    wish(ValueAction::paste);
+    request(ValueAction::paste);
     EXPECT_EQ(value(), -10) << "the mouse is elsewhere";
 }
 
@@ -338,7 +338,7 @@ TEST_F(Widgets, InvalidNumbersAreRejected) {
         ImGui::SetClipboardText(text);
         const float before = value();
         const auto said = ui.toasts.added();
-        wish(ValueAction::paste);
+        request(ValueAction::paste);
         EXPECT_EQ(value(), before) << text;
         EXPECT_GT(ui.toasts.added(), said) << text;
         for (const char c : ui.toasts.all().back().text) EXPECT_TRUE(c >= ' ' && c < 127) << text;

@@ -72,7 +72,7 @@ protected:
     void frames(int count = 4) {
         for (int i = 0; i < count; ++i) frame();
     }
-    PanelContext context() { return {document, ui, color, picture, SessionStatus(), 640, 480}; }
+    PanelContext context() { return {document, ui, color, image, SessionStatus(), 640, 480}; }
     void toggle(const char* id) {
         PanelContext c = context();
         toggle_instrument(c, id);
@@ -81,7 +81,7 @@ protected:
     Document document{test::sample_project().project};
     const ColorManagement color = test::our_colors();
     UiState ui;
-    FramePtr picture;
+    FramePtr image;
     Layout layout;
 };
 
@@ -155,9 +155,9 @@ TEST_F(Docks, ReopenOnlyWithTheirScene) {
     UiState again;
     again.settings = ui.settings;
     std::swap(ui, again);
-    recall_instruments(context(), "/b.gltf");
+    restore_instruments(context(), "/b.gltf");
     EXPECT_FALSE(ui.scopes.open || ui.show_history);
-    recall_instruments(context(), "/a.gltf");
+    restore_instruments(context(), "/a.gltf");
     EXPECT_TRUE(ui.scopes.open && ui.show_history);
     frames();
     EXPECT_EQ(layout.right_dock.width, std::round(31 * ImGui::GetFontSize()));

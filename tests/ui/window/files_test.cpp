@@ -107,7 +107,7 @@ TEST_F(Files, RecentFilesAreUniqueNewestFirstAndLimited) {
 TEST_F(Files, ListsFoldersFirstThenMatchingFiles) {
     write("b.GLB", "12345");
     write("a.gltf", "");
-    write("picture.png", "");
+    write("image.png", "");
     write(".hidden.glb", "");
     write("Zoo/x.glb", "");
     const auto list = list_folder(folder, scene_files);
@@ -137,15 +137,15 @@ TEST_F(Files, PathIsCompletedToTheCommonPrefix) {
 
 TEST_F(Files, TypedPathIsRelativeToTheShownFolderOrToHome) {
     setenv("HOME", "/home/somebody", 1);
-    EXPECT_EQ(meant_path("~/scenes/a.glb", "/work"), "/home/somebody/scenes/a.glb");
-    EXPECT_EQ(meant_path("~", "/work"), "/home/somebody/");
-    EXPECT_EQ(meant_path("~x", "/work"), "/work/~x");
-    EXPECT_EQ(meant_path("a.glb", "/work/scenes"), "/work/scenes/a.glb");
-    EXPECT_EQ(meant_path("../sky/", "/work/scenes"), "/work/sky/");
-    EXPECT_EQ(meant_path("/a.glb", "/work"), "/a.glb");
-    EXPECT_EQ(meant_path("", "/work"), "/work/");
+    EXPECT_EQ(absolute_path("~/scenes/a.glb", "/work"), "/home/somebody/scenes/a.glb");
+    EXPECT_EQ(absolute_path("~", "/work"), "/home/somebody/");
+    EXPECT_EQ(absolute_path("~x", "/work"), "/work/~x");
+    EXPECT_EQ(absolute_path("a.glb", "/work/scenes"), "/work/scenes/a.glb");
+    EXPECT_EQ(absolute_path("../sky/", "/work/scenes"), "/work/sky/");
+    EXPECT_EQ(absolute_path("/a.glb", "/work"), "/a.glb");
+    EXPECT_EQ(absolute_path("", "/work"), "/work/");
     unsetenv("HOME");
-    EXPECT_EQ(meant_path("~/a", "/work"), "/work/~/a");
+    EXPECT_EQ(absolute_path("~/a", "/work"), "/work/~/a");
 }
 
 TEST_F(Files, PlacesHaveTheDesktopAndFoldersOfRecentFiles) {

@@ -22,7 +22,7 @@ TEST(Layout, RegionsCoverTheWindowWithoutGapOrOverlap) {
     }
 }
 
-TEST(Layout, RowBelowThePictureReducesItsHeight) {
+TEST(Layout, RowBelowTheImageReducesItsHeight) {
     const Layout without = lay_out(1280, 801, 22, 27, 15, {}), with = lay_out(1280, 801, 22, 27, 15, {}, {.time = 30});
     EXPECT_EQ(without.time.height, 0);
     EXPECT_EQ(with.time.height, 30);
@@ -54,7 +54,7 @@ bool overlap(const Region& a, const Region& b) {
 }
 float area(const Region& r) { return r.width * r.height; }
 
-TEST(Layout, DocksAndStripReduceThePicture) {
+TEST(Layout, DocksAndStripReduceTheImage) {
     for (const float width : {480.f, 800.f, 1280.f, 1720.f, 2560.f})
         for (const float height : {320.f, 720.f, 960.f, 1440.f})
             for (const float font : {12.f, 15.f, 30.f, 60.f})
@@ -72,7 +72,7 @@ TEST(Layout, DocksAndStripReduceThePicture) {
                     const float body = l.room.width * (l.status.y - l.room.y);
                     EXPECT_NEAR(area(l.viewport) + area(l.strip) + area(l.time) + area(l.right_dock) + area(l.bottom_dock), body,
                                 1e-3f * body);
-                    EXPECT_GE(l.viewport.height, std::min(9 * font, 0.3f * (l.status.y - l.room.y)) - 1) << "the picture can be seen";
+                    EXPECT_GE(l.viewport.height, std::min(9 * font, 0.3f * (l.status.y - l.room.y)) - 1) << "the image can be seen";
                 }
 }
 

@@ -43,7 +43,7 @@ protected:
     std::optional<float> metered(const Frame& f, std::vector<Id<Node>> selected = {}) {
         return subject_exposure(f, scene, selected, {}, color);
     }
-    // Mean of the display-encoded picture.
+    // Mean of the display-encoded image.
     double shown_mean(const Frame& f, float exposure_ev) {
         std::vector<float> rgb;
         for (size_t i = 0; i < f.rgba.size(); i += 4) rgb.insert(rgb.end(), {f.rgba[i], f.rgba[i + 1], f.rgba[i + 2]});
@@ -88,7 +88,7 @@ TEST_F(SubjectExposure, UsesTheSelection) {
     Frame f = halves(0.5f, 0.001f);
     for (size_t i = 0; i < f.object_id.size(); ++i) f.object_id[i] = f.object_id[i] ? first.value : second.value;
     EXPECT_NEAR(*metered(f, {first}), std::log2(0.18f / 0.5f), 1e-3);
-    // The selection would be clipped; the whole picture can lower the exposure by at most 1.5 stops.
+    // The selection would be clipped; the whole image can lower the exposure by at most 1.5 stops.
     EXPECT_LE(*metered(f, {second}), std::log2(0.18f / 0.001f) + 1e-3);
     EXPECT_GE(*metered(f, {second}), std::log2(0.18f / 0.001f) - 1.5f - 1e-3);
 }
@@ -123,20 +123,20 @@ TEST(DocumentMeter, IsNoUndoStep) {
     EXPECT_EQ(document.project().view.exposure_ev, -9);
 }
 
-TEST(CameraFrame, PictureAndFrameHaveTheAspect) {
+TEST(CameraFrame, ImageAndFrameHaveTheAspect) {
     CameraFrame frame;
-    EXPECT_EQ(picture_size(frame, 900, 600).width, 900);
+    EXPECT_EQ(image_size(frame, 900, 600).width, 900);
     frame.aspect = 1;
-    EXPECT_EQ(picture_size(frame, 900, 600).width, 900) << "extends beyond the frame";
-    const ImageRect inside = frame_in_picture(frame, {10, 20, 900, 600});
+    EXPECT_EQ(image_size(frame, 900, 600).width, 900) << "extends beyond the frame";
+    const ImageRect inside = frame_in_image(frame, {10, 20, 900, 600});
     EXPECT_EQ(inside.width, 600);
     EXPECT_EQ(inside.x, 160);
     frame.fit = true;
-    EXPECT_EQ(picture_size(frame, 900, 600).width, 600);
-    EXPECT_EQ(picture_size(frame, 900, 600).height, 600);
+    EXPECT_EQ(image_size(frame, 900, 600).width, 600);
+    EXPECT_EQ(image_size(frame, 900, 600).height, 600);
     frame = {.aspect = 2, .from_file = {}};
-    EXPECT_EQ(picture_size(frame, 900, 600).height, 450) << "wider than the window: fully visible";
-    EXPECT_EQ(frame_in_picture(frame, {0, 0, 900, 450}).width, 900);
+    EXPECT_EQ(image_size(frame, 900, 600).height, 450) << "wider than the window: fully visible";
+    EXPECT_EQ(frame_in_image(frame, {0, 0, 900, 450}).width, 900);
 }
 
 TEST(CameraFrame, AspectIsFromTheSettingsElseFromTheFile) {
@@ -185,15 +185,15 @@ TEST(CameraFrame, CropsAllPlanes) {
     EXPECT_EQ(part.object_id[8], 13u);
     EXPECT_EQ(part.bounces[0][3].x, 6);
     EXPECT_TRUE(part.normal.empty());
-    EXPECT_FALSE(part.error.known) << "it is that of the whole picture";
+    EXPECT_FALSE(part.error.known) << "it is that of the whole image";
     EXPECT_EQ(cropped(DenoisedPtr(), {0, 0, 1, 1}), nullptr);
 }
 
 TEST(RegionBackdrop, SurroundTheRegion) {
     float area = 0;
-    for (const PictureRegion& part : around({0.25f, 0.5f, 0.5f, 0.25f})) area += part.width * part.height;
+    for (const ImageRegion& part : around({0.25f, 0.5f, 0.5f, 0.25f})) area += part.width * part.height;
     EXPECT_FLOAT_EQ(area, 1 - 0.5f * 0.25f);
-    for (const PictureRegion& part : around({})) EXPECT_EQ(part.width * part.height, 0);
+    for (const ImageRegion& part : around({})) EXPECT_EQ(part.width * part.height, 0);
 }
 
 TEST(HomeView, IsTheCameraOfTheView) {

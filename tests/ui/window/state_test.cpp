@@ -83,10 +83,10 @@ TEST(Toasts, ExpireAndFailuresLast) {
     toasts.note("saved");
     toasts.fail("broken");
     const auto start = toasts.all().front().since;
-    toasts.expire(start + 6s);
+    toasts.remove_expired(start + 6s);
     ASSERT_EQ(toasts.all().size(), 1u);
     EXPECT_EQ(toasts.all()[0].text, "broken");
-    toasts.expire(start + 60s);
+    toasts.remove_expired(start + 60s);
     EXPECT_TRUE(toasts.all().empty());
 }
 
@@ -111,27 +111,27 @@ TEST(FrameStats, PercentilesByNearestRank) {
     EXPECT_EQ(percentile({}, 0.5), 0);
 }
 
-TEST(FrameBudget, PictureGetsTheRemainingTime) {
+TEST(FrameBudget, ImageGetsTheRemainingTime) {
     FrameBudget pace;
     const FrameBudget::TimePoint start{};
     pace.begin(start);
     EXPECT_NEAR(pace.left(20, start + 3ms), 17, 1e-9) << "the rest of the frame is not measured yet";
-    pace.begin_picture(start + 3ms);
-    pace.end_picture(start + 5ms);
+    pace.begin_image(start + 3ms);
+    pace.end_image(start + 5ms);
     const FrameTimes times = pace.end(start + 17ms, true);
-    EXPECT_NEAR(times.before_picture, 3, 1e-9);
-    EXPECT_NEAR(times.picture, 2, 1e-9);
-    EXPECT_NEAR(times.after_picture, 12, 1e-9);
+    EXPECT_NEAR(times.before_image, 3, 1e-9);
+    EXPECT_NEAR(times.image, 2, 1e-9);
+    EXPECT_NEAR(times.after_image, 12, 1e-9);
     pace.begin(start + 100ms);
     EXPECT_NEAR(pace.left(20, start + 101ms), 7, 1e-9);
-    EXPECT_GT(pace.left(20, start + 130ms), 0) << "a late frame still draws its picture";
-    pace.begin_picture(start + 101ms);
-    pace.end_picture(start + 102ms);
+    EXPECT_GT(pace.left(20, start + 130ms), 0) << "a late frame still draws its image";
+    pace.begin_image(start + 101ms);
+    pace.end_image(start + 102ms);
     pace.end(start + 102ms, false);
     pace.begin(start + 110ms);
     EXPECT_NEAR(pace.left(20, start + 111ms), 7, 1e-9) << "a frame that is not drawn says nothing about drawing";
-    pace.begin_picture(start + 111ms);
-    pace.end_picture(start + 112ms);
+    pace.begin_image(start + 111ms);
+    pace.end_image(start + 112ms);
     pace.end(start + 113ms, true);
     pace.begin(start + 200ms);
     const double later = pace.left(20, start + 200ms);
@@ -176,9 +176,9 @@ TEST(FrameStats, ListsLateFramesWithTheirTimes) {
     EXPECT_EQ(json["max_ms"], 39.0);
     ASSERT_EQ(json["late_frames"].size(), 2u);
     EXPECT_EQ(json["late_frames"][0]["at_s"], 0.5);
-    EXPECT_EQ(json["late_frames"][0]["before_picture_ms"], 10.0);
-    EXPECT_EQ(json["late_frames"][1]["picture_ms"], 30.0);
-    EXPECT_EQ(json["late_frames"][1]["after_picture_ms"], 3.0);
+    EXPECT_EQ(json["late_frames"][0]["before_image_ms"], 10.0);
+    EXPECT_EQ(json["late_frames"][1]["image_ms"], 30.0);
+    EXPECT_EQ(json["late_frames"][1]["after_image_ms"], 3.0);
 }
 
 TEST(FrameStats, ViewChangesCountWhenDisplayed) {
@@ -192,7 +192,7 @@ TEST(FrameStats, ViewChangesCountWhenDisplayed) {
     EXPECT_EQ(stats.looks(), std::vector<double>{32});
 }
 
-TEST(FrameStats, PictureAnswersItsSubmitAndClearsOlderOnes) {
+TEST(FrameStats, ImageAnswersItsSubmitAndClearsOlderOnes) {
     FrameStats stats;
     const FrameStats::Clock::time_point start{};
     stats.submitted(1, start);

@@ -76,18 +76,18 @@ TEST(UiPersistence, SceneStateRoundTrips) {
     ui.light_mix.unfolded.clear();
     save_scene_ui(ui, "/b.gltf", settings);
     restore_scene_ui(settings, "/a.gltf", s.scene, ui);
-    EXPECT_EQ(ui.zoom, (PictureZoom{3, 0.25, 0.75}));
+    EXPECT_EQ(ui.zoom, (ImageZoom{3, 0.25, 0.75}));
     EXPECT_EQ(ui.selection(s.scene), (std::vector{s.second, s.first}));
     EXPECT_EQ(ui.selected_material, s.material);
     EXPECT_EQ(ui.turned, (std::set{s.first}));
     EXPECT_EQ(ui.light_mix.unfolded, "Sun");
     restore_scene_ui(settings, "/b.gltf", s.scene, ui);
-    EXPECT_EQ(ui.zoom, PictureZoom());
+    EXPECT_EQ(ui.zoom, ImageZoom());
     EXPECT_TRUE(!ui.selected && !ui.selected_material && ui.turned.empty() && ui.light_mix.unfolded.empty());
     restore_scene_ui(settings, "/a.gltf", Scene(), ui);
     EXPECT_TRUE(!ui.selected && ui.also_selected.empty() && !ui.selected_material && ui.turned.empty()) << "deleted nodes";
     restore_scene_ui(settings, "/never.gltf", s.scene, ui);
-    EXPECT_EQ(ui.zoom, PictureZoom());
+    EXPECT_EQ(ui.zoom, ImageZoom());
 }
 
 TEST(UiPersistence, OnlyTheLastScenesAreKept) {

@@ -19,7 +19,7 @@ void drag_light(Id<Node> node, const std::string& name) {
     ImGui::EndDragDropSource();
 }
 
-std::optional<Id<Node>> light_dropped_here() {
+std::optional<Id<Node>> dropped_light() {
     std::optional<Id<Node>> node;
     if (!ImGui::BeginDragDropTarget()) return node;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(payload_type)) node = *static_cast<const Id<Node>*>(payload->Data);

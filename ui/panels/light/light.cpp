@@ -76,7 +76,7 @@ void draw_light_panel(PanelContext& c, Id<Node> id) {
         draw_light_strength(f, light, area_scale(world, light.kind));
         const Light before = light;
         draw_light_shape(f, light);
-        light = with_power_kept(before, light);
+        light = with_same_power(before, light);
         draw_light_distribution(f, c, light);
         if (f.changed()) set_light(c, light_id, light, f.gesture());
     }

@@ -94,10 +94,10 @@ void draw_light_links_panel(PanelContext& c, Id<Node> id) {
     const Id<Light> light_id = node->light;
     Light light = *record;
     bool changed = draw_set(c, "Lights", light.lit_objects,
-                            "Objects that this light illuminates. Shift+click an object in the picture to remove or add it.");
+                            "Objects that this light illuminates. Shift+click an object in the image to remove or add it.");
     changed |=
         draw_set(c, "Shadows of", light.shadow_casters,
-                 "Objects that cast shadows of this light. Other objects let its light through. Alt+Shift+click an object in the picture "
+                 "Objects that cast shadows of this light. Other objects let its light through. Alt+Shift+click an object in the image "
                  "to remove or add it.");
     draw_limit(c, *record);
     if (changed) set_light(c, light_id, light, no_gesture);

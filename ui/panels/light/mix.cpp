@@ -53,7 +53,7 @@ void draw_grouping(PanelContext& c) {
     if (f.choice("Groups", grouping, groupings,
                  "Which lights share a gain. Manual: by the group of each light; emissive surfaces by the name of their material.")) {
         mix.grouping = LightMix::Grouping(grouping);
-        c.ui.light_mix.stays_off = mix.grouping == LightMix::Grouping::none;
+        c.ui.light_mix.disabled_by_user = mix.grouping == LightMix::Grouping::none;
         c.apply(SetMix{mix});
     }
 }
@@ -67,7 +67,7 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
         changed = true;
     }
     c.ui.probe.record_last_item("Light mix/" + group + "/On");
-    tip_for_last_item(c.ui, "If off, the picture is shown without this light. Lamps stay visible as objects.");
+    tip_for_last_item(c.ui, "If off, the image is shown without this light. Lamps stay visible as objects.");
     ImGui::SameLine();
     if (ImGui::Button("S")) {
         mix = with_solo(mix, c.mixing->names, group);
@@ -92,7 +92,7 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     ImGui::TextUnformatted(figures.c_str());
     ImGui::PopStyleColor();
-    const std::string tip = light + ", " + noise + ": share of the picture's luminance and of its noise variance, in this mix.";
+    const std::string tip = light + ", " + noise + ": share of the image's luminance and of its noise variance, in this mix.";
     tip_for_last_item(c.ui, tip.c_str());
 }
 
@@ -134,7 +134,7 @@ void draw_group(PanelContext& c, const GroupReport& report) {
     ImGui::PopID();
 }
 
-// Error of the displayed picture; until the session has estimated it, the prediction from the groups' variances.
+// Error of the displayed image; until the session has estimated it, the prediction from the groups' variances.
 std::string noise_text(const Frame& frame, const Gains& gains) {
     const ErrorEstimate& e = frame.error;
     if (!e.rmse_known) return "Noise of the mix: not known yet.";
@@ -169,7 +169,7 @@ void draw_bake(PanelContext& c) {
     if (ImGui::Button("Bake", {-FLT_MIN, 0})) c.apply(bake_mix(c.scene()));
     ImGui::EndDisabled();
     c.ui.probe.record_last_item("Light mix/Bake");
-    tip_for_last_item(c.ui, "Writes the mix into the lights, materials and environment as one undo step. The picture does not change.");
+    tip_for_last_item(c.ui, "Writes the mix into the lights, materials and environment as one undo step. The image does not change.");
 }
 
 } // namespace

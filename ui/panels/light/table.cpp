@@ -1,4 +1,4 @@
-// Light table: all lights and emissive materials by group, with their share of the picture's light and noise. Rows can be dragged
+// Light table: all lights and emissive materials by group, with their share of the image's light and noise. Rows can be dragged
 // between groups.
 #include "ui/gl/icons.h"
 #include "ui/lights/light_groups.h"
@@ -23,7 +23,7 @@ namespace blush {
 namespace {
 
 constexpr const char* how_to_get_shares =
-    "Share of the picture's light and noise. Available while the light mix renders groups: choose Groups there.";
+    "Share of the image's light and noise. Available while the light mix renders groups: choose Groups there.";
 
 constexpr const char* of_its_group = "Share of the whole group: the light mix renders one plane per group.";
 
@@ -138,7 +138,7 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
         begin_renaming(view, row.node, {}, row.name);
     if (!row.material) {
         drag_light(row.node, row.name);
-        if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
+        if (const auto dropped = dropped_light()) put_dropped_into_group(c, *dropped, group);
     }
     if (row.light) {
         clicks.row(row.node, clicked);
@@ -147,10 +147,10 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
         if (row.environment) c.ui.tab = InspectorTab::environment;
     }
     ImGui::SameLine(0, 0);
-    icon_item(icon_of(c, row), row.shines ? tone::light : tone::dim_text, height);
+    icon_item(icon_of(c, row), row.enabled ? tone::light : tone::dim_text, height);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    elided_text(c.ui, row.name, row.shines ? tone::text : tone::dim_text);
+    elided_text(c.ui, row.name, row.enabled ? tone::text : tone::dim_text);
 }
 
 // In brackets if it is the share of a whole group.
@@ -167,7 +167,7 @@ void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, const std
     const std::string scope = "Light table/" + row.name;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, row.shines ? tone::text : tone::dim_text);
+    ImGui::PushStyleColor(ImGuiCol_Text, row.enabled ? tone::text : tone::dim_text);
     draw_name(c, clicks, row, group, scope);
     if (ImGui::TableNextColumn()) {
         ImGui::AlignTextToFramePadding();
@@ -205,7 +205,7 @@ void draw_group(PanelContext& c, const std::string& group) {
     if (shown != group && !group.empty()) tip_for_last_item(c.ui, group.c_str());
     if (!group.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         begin_renaming(view, {}, group, group);
-    if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, group);
+    if (const auto dropped = dropped_light()) put_dropped_into_group(c, *dropped, group);
 }
 
 void draw_rows(PanelContext& c, const std::vector<LightRows>& all) {
@@ -247,7 +247,7 @@ void draw_new_group(PanelContext& c) {
     const std::string label = elided("New group from selection, or drop a light here", width - 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button((label + "##new").c_str(), {width, 0})) c.ui.commands.push_back(Command::group_lights);
     c.ui.probe.record_last_item("Light table/New group");
-    if (const auto dropped = light_dropped_here()) put_dropped_into_group(c, *dropped, unused_group_name(c.scene()));
+    if (const auto dropped = dropped_light()) put_dropped_into_group(c, *dropped, unused_group_name(c.scene()));
 }
 
 } // namespace

@@ -36,18 +36,18 @@ std::string name_of(const Texture& t, Id<Texture> id) {
 
 std::string size_of(const Texture& t) { return t.image ? fmt::format("{} × {}", t.image->width, t.image->height) : "missing"; }
 
-ImVec2 fitted(const MapThumbnails::Picture& p, float side) {
+ImVec2 fitted(const MapThumbnails::MapPreview& p, float side) {
     const float scale = side / std::max({p.width, p.height, 1.f});
     return {std::max(1.f, p.width * scale), std::max(1.f, p.height * scale)};
 }
 
-void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::Picture& picture, const std::string& name) {
+void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::MapPreview& image, const std::string& name) {
     if (!tip_is_due(c.ui)) return;
     const float em = ImGui::GetFontSize(), side = em * 18;
-    const ImVec2 size = fitted(picture, side), padding = ImGui::GetStyle().WindowPadding;
+    const ImVec2 size = fitted(image, side), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({std::max(size.x, em * 8) + 2 * padding.x, size.y + em * 2.5f + 2 * padding.y});
     ImGui::BeginTooltip();
-    if (picture.texture) ImGui::Image(picture.texture, size);
+    if (image.texture) ImGui::Image(image.texture, size);
     ImGui::TextUnformatted(elided(name, side).c_str());
     ImGui::TextDisabled("%s%s", size_of(texture).c_str(), texture.image && texture.image->bytes.empty() ? ", more than 8 bits" : "");
     c.ui.probe.record("Map preview", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
@@ -57,17 +57,17 @@ void draw_preview(PanelContext& c, const Texture& texture, const MapThumbnails::
 // The image, scaled to fit into a square.
 void draw_thumbnail(PanelContext& c, const Texture& texture, const std::string& label, const std::string& name, float side) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const MapThumbnails::Picture picture =
-        c.ui.maps.thumbnails && texture.image ? c.ui.maps.thumbnails->of(*texture.image) : MapThumbnails::Picture{};
+    const MapThumbnails::MapPreview image =
+        c.ui.maps.thumbnails && texture.image ? c.ui.maps.thumbnails->of(*texture.image) : MapThumbnails::MapPreview{};
     ImGui::Dummy({side, side});
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + side, at.y + side}, tone::surround, ImGui::GetStyle().FrameRounding);
-    if (picture.texture) {
-        const ImVec2 size = fitted(picture, side), low{at.x + (side - size.x) / 2, at.y + (side - size.y) / 2};
-        draw.AddImage(picture.texture, low, {low.x + size.x, low.y + size.y});
+    if (image.texture) {
+        const ImVec2 size = fitted(image, side), low{at.x + (side - size.x) / 2, at.y + (side - size.y) / 2};
+        draw.AddImage(image.texture, low, {low.x + size.x, low.y + size.y});
     }
     c.ui.probe.record_last_item("Map/" + label);
-    draw_preview(c, texture, picture, name);
+    draw_preview(c, texture, image, name);
 }
 
 void ask_for_file(PanelContext& c, Id<Material> id, const Slot& slot) {

@@ -1,4 +1,4 @@
-// Internal to io/gltf: size limits. Rejects files whose decoded size is out of proportion to their bytes.
+// Internal to io/gltf: size limits. Rejects files whose decoded size is implausibly large for their number of bytes.
 #pragma once
 
 #include "io/gltf/read/context.h"

@@ -15,7 +15,7 @@
 namespace blush {
 
 const ParsedGltf& blush_extras(const ParsedGltf& object);
-// The id that extras.blush.id asks for; 0: none.
+// The id in extras.blush.id; 0: none.
 uint32_t requested_id(const ParsedGltf& object);
 bool is_fallback(const ParsedGltf& object);
 

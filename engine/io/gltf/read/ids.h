@@ -15,7 +15,7 @@ namespace blush {
 // Larger ids in files are ignored: ids after them must not overflow, and EXR ids end at 2^24.
 constexpr uint32_t max_id_in_file = 1u << 22;
 
-// Ids for records in file order: the wanted id (0: none) if no earlier record wants it, else the id of the previous record + 1
+// Ids for records in file order: the requested id (0: none) if no earlier record has it, else the id of the previous record + 1
 // or, if that is taken, the largest id + 1.
 std::vector<uint32_t> assign_ids(const std::vector<uint32_t>& wanted);
 

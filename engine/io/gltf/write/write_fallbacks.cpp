@@ -51,7 +51,7 @@ Json polygon(GltfDocument& document, size_t corners) {
     return {{"attributes", std::move(attributes)}, {"indices", append_indices(document, indices)}};
 }
 
-// Finds a polygon with that many corners whose accessors can be shared.
+// Finds a polygon with the same number of corners, so that its accessors can be shared.
 bool has_corners(GltfDocument& document, const Json& primitive, size_t corners) {
     const Json* positions = find(document, "accessors", child_or_null(child_or_null(primitive, "attributes"), "POSITION"));
     return positions && child_or_null(*positions, "count") == corners;

@@ -27,7 +27,7 @@ void write_emission(Json& object, const Light& light, float intensity_otherwise)
     set_number(object, "intensity", e.intensity, intensity_otherwise);
 }
 
-// KHR_lights_punctual wants 0 <= inner < outer <= pi / 2.
+// KHR_lights_punctual requires 0 <= inner < outer <= pi / 2.
 void write_cone(Json& object, const Light& light) {
     constexpr float min_cone = 1e-4f;
     Json& spot = child(object, "spot");

@@ -17,7 +17,7 @@ struct VertexNeeds {
 // Triangles of one primitive, with normals. Points and lines become small solids (points_lines.h). Null, with a diagnostic,
 // if nothing remains.
 // Triangles with a non-finite corner are skipped with a warning.
-// Errors: an index or accessor out of range, arrays of unlike length, no finite triangle at all.
+// Errors: an index or accessor out of range, arrays of different lengths, no finite triangle at all.
 Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf::Primitive& primitive, const VertexNeeds& needs,
                                      const std::string& where);
 

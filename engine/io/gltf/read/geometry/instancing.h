@@ -6,7 +6,7 @@
 
 namespace blush {
 
-// Limit of instances in a file, counted per primitive, since a small file could ask for any amount of memory.
+// Limit of instances in a file, counted per primitive, since a small file could require any amount of memory.
 constexpr uint64_t max_instances = uint64_t(1) << 23;
 
 // Transforms of the instances of a node's mesh; null if the node lacks the extension or all instances are at the node. Non-finite

@@ -172,7 +172,7 @@ struct ImageDecoding::State {
     mutable std::mutex mutex;        // of what follows, while images are decoded
     std::vector<ImagePtr> available; // by file
     std::function<void()> on_more;
-    Clock::duration pause = std::chrono::milliseconds(500); // doubles: each picture with more textures costs time
+    Clock::duration pause = std::chrono::milliseconds(500); // doubles: each image with more textures costs time
     Clock::time_point next_shown = Clock::now() + pause;
 
     TaskQueue helpers; // declared last, so that the threads end before the data they use

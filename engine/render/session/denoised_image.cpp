@@ -1,0 +1,96 @@
+#include "render/session/denoised_image.h"
+
+#include "core/math.h"
+#include "render/light_mix/light_mix.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace blush {
+namespace {
+
+PixelView view_of(const std::vector<Vec3>& plane) { return {span_of(plane), 3}; }
+
+DenoisedImage image_of(const Frame& source, DenoiseQuality quality) {
+    DenoisedImage image;
+    image.revision = source.revision;
+    image.width = source.width;
+    image.height = source.height;
+    image.divider = source.divider;
+    image.samples = source.samples;
+    image.rendered_seconds = source.seconds;
+    image.quality = quality;
+    return image;
+}
+
+double mean_luminance(const std::vector<float>& pixels, size_t stride) {
+    double sum = 0;
+    for (size_t i = 0; i < pixels.size(); i += stride) sum += double(luminance(Vec3{pixels[i], pixels[i + 1], pixels[i + 2]}));
+    return sum / double(std::max<size_t>(1, pixels.size() / stride));
+}
+
+} // namespace
+
+std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
+    const DenoiseInput whole{frame.width, frame.height, {frame.rgba, 4}, view_of(frame.albedo), view_of(frame.normal)};
+    if (frame.groups.empty()) return {whole};
+    std::vector<DenoiseInput> inputs(frame.groups.size(), whole);
+    for (size_t k = 0; k < inputs.size(); ++k) inputs[k].color = view_of(frame.groups[k]);
+    return inputs;
+}
+
+DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised) {
+    auto image = std::make_shared<DenoisedImage>(image_of(source, quality));
+    if (source.groups.empty()) {
+        image->denoised = std::move(denoised.front());
+        return image;
+    }
+    auto planes = std::make_shared<DenoisedGroups>();
+    planes->of = source.light_groups;
+    Denoised& all = image->denoised;
+    all.network = denoised.front().network;
+    all.precision = denoised.front().precision;
+    all.exposure_scale = denoised.front().exposure_scale;
+    for (Denoised& group : denoised) {
+        all.sanitised += group.sanitised;
+        all.tiles = std::max(all.tiles, group.tiles);
+        all.seconds += group.seconds;
+        planes->planes.push_back(std::move(group.rgb));
+    }
+    image->groups = std::move(planes);
+    image->gains = source.gains;
+    all.rgb = mixed_rgb(*image, source.gains);
+    all.mean_before = mean_luminance(source.rgba, 4);
+    all.mean_after = mean_luminance(all.rgb, 3);
+    return image;
+}
+
+DenoisedPtr remixed(const DenoisedImage& image, const Gains& gains) {
+    auto mixed = std::make_shared<DenoisedImage>(image);
+    mixed->gains = gains;
+    mixed->denoised.rgb = mixed_rgb(image, gains);
+    return mixed;
+}
+
+std::vector<PlaneSpan> planes_of(const DenoisedImage& image) { return {image.groups->planes.begin(), image.groups->planes.end()}; }
+
+std::vector<float> mixed_rgb(const DenoisedImage& image, std::span<const Vec3> gains, const Workers* workers) {
+    std::vector<float> rgb(size_t(image.width) * size_t(image.height) * 3);
+    mix_rgb(planes_of(image), gains, rgb, workers);
+    return rgb;
+}
+
+double energy_change_percent(const Denoised& denoised) {
+    return denoised.mean_before > 0 ? 100 * (denoised.mean_after / denoised.mean_before - 1) : 0;
+}
+
+std::string_view to_string(DenoiseQuality quality) {
+    switch (quality) {
+    case DenoiseQuality::fast: return "fast";
+    case DenoiseQuality::base: return "base";
+    case DenoiseQuality::high: return "high";
+    }
+    return {};
+}
+
+} // namespace blush

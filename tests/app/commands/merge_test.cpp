@@ -1,0 +1,189 @@
+// `blush merge` and `blush render --continue`: partial renders combine to the samples of one render.
+#include "io/image/snapshot.h"
+#include "tests/app/program.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace blush::TEST_FILE {
+namespace {
+
+using test::blush;
+using test::Finished;
+using test::scene_file;
+using test::TemporaryFolder;
+
+using Arguments = std::vector<std::string>;
+
+Arguments with(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+Arguments tiny(const std::string& output) { return {"render", scene_file("cornell"), "-o", output, "--size", "24x16", "--quiet"}; }
+const Arguments all_layers{"--layers", "albedo,normal,depth,error,samples,id,bounces=3,film"};
+
+void expect_done(const Arguments& arguments) {
+    const Finished finished = blush(arguments);
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+}
+
+// Every channel equals `expected` within `ulps` units in the last place.
+void expect_same_channels(const std::string& file, const std::string& expected_file, int ulps = 0) {
+    const Result<LayeredImage> image = read_layers(file), expected = read_layers(expected_file);
+    ASSERT_TRUE(image && expected);
+    EXPECT_EQ(image->channels.size(), expected->channels.size());
+    for (const LayeredImage::Channel& channel : expected->channels) {
+        const LayeredImage::Channel* found = image->find(channel.name);
+        ASSERT_TRUE(found) << channel.name;
+        if (ulps == 0 || channel.name == "depth.Z" || channel.name.starts_with("id.")) {
+            EXPECT_EQ(found->values, channel.values) << channel.name;
+            EXPECT_EQ(found->words, channel.words) << channel.name;
+            continue;
+        }
+        if (channel.is_uint) continue; // of sums, which may differ in bits that do not affect the image
+        for (size_t i = 0; i < channel.values.size(); ++i) {
+            float low = channel.values[i], high = low;
+            for (int k = 0; k < ulps; ++k) {
+                low = std::nextafter(low, -std::numeric_limits<float>::infinity());
+                high = std::nextafter(high, std::numeric_limits<float>::infinity());
+            }
+            ASSERT_TRUE(found->values[i] >= low && found->values[i] <= high)
+                << channel.name << " " << found->values[i] << " " << channel.values[i];
+        }
+    }
+}
+
+TEST(Continue, EqualsAnUninterruptedRender) {
+    const TemporaryFolder folder;
+    expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--spp", "24", "--seed", "3", "--max-bounces", "4"}));
+    expect_done(with(with(tiny(folder / "begun.exr"), all_layers), {"--spp", "11", "--seed", "3", "--max-bounces", "4"}));
+    expect_done(
+        with({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "24", "-o", folder / "done.exr", "--quiet"},
+             all_layers));
+    expect_same_channels(folder / "done.exr", folder / "whole.exr");
+    const auto metadata = read_snapshot_metadata(read_layers(folder / "done.exr")->metadata);
+    ASSERT_TRUE(metadata);
+    EXPECT_EQ(metadata->spp, 24);
+    EXPECT_EQ(metadata->last_sample, 24);
+    EXPECT_EQ(metadata->settings.seed, 3u);
+}
+
+TEST(Continue, ResumesAdaptiveSamplingAndAnotherEnvironment) {
+    const TemporaryFolder folder;
+    const Arguments options{"--adaptive", "on", "--env", "constant=0.2,0.3,0.4", "--layers", "samples,film"};
+    expect_done(with(with(tiny(folder / "whole.exr"), options), {"--spp", "40"}));
+    expect_done(with(with(tiny(folder / "begun.exr"), options), {"--spp", "20"}));
+    expect_done({"render", scene_file("cornell"), "--continue", folder / "begun.exr", "--spp", "40", "-o", folder / "done.exr", "--quiet",
+                 "--layers", "samples,film"});
+    expect_same_channels(folder / "done.exr", folder / "whole.exr");
+}
+
+TEST(Continue, ErrorsNameTheReason) {
+    const TemporaryFolder folder;
+    const auto fails = [&](const Arguments& arguments, int code, const std::string& why) {
+        const Finished finished = blush(arguments);
+        EXPECT_EQ(finished.exit_code, code) << finished.err;
+        EXPECT_NE(finished.err.find(why), std::string::npos) << finished.err;
+        EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;
+    };
+    expect_done(with(tiny(folder / "plain.exr"), {"--spp", "2"}));
+    expect_done(with(tiny(folder / "film.exr"), {"--spp", "2", "--layers", "film"}));
+    const auto resume = [&](const std::string& scene, const std::string& file) {
+        return Arguments{"render", scene_file(scene), "--continue", folder / file, "--spp", "4", "-o", folder / "out.exr", "--quiet"};
+    };
+    fails(resume("cornell", "plain.exr"), 1, "without the samples");
+    fails(resume("furnace", "film.exr"), 1, "another scene");
+    fails(resume("cornell", "nowhere.exr"), 1, "nowhere.exr");
+    fails(with(resume("cornell", "film.exr"), {"--seed", "4"}), 2, "only --spp, --time and --error");
+    fails(with(resume("cornell", "film.exr"), {"--layers", "albedo"}), 1, "lack the plane \"albedo.R\"");
+}
+
+TEST(Merge, OfFilmStatesIsTheWholeRender) {
+    const TemporaryFolder folder;
+    expect_done(with(with(tiny(folder / "whole.exr"), all_layers), {"--samples", "0:14"}));
+    Arguments merge{"merge", "--quiet", "-o", folder / "merged.exr"};
+    for (const auto& [name, range] : {std::pair("b.exr", "5:12"), std::pair("a.exr", "0:5"), std::pair("c.exr", "12:14")}) {
+        expect_done(with(with(tiny(folder / name), all_layers), {"--samples", range}));
+        merge.push_back(folder / name);
+    }
+    expect_done(merge);
+    expect_same_channels(folder / "merged.exr", folder / "whole.exr", 1);
+    const auto metadata = read_snapshot_metadata(read_layers(folder / "merged.exr")->metadata);
+    ASSERT_TRUE(metadata);
+    EXPECT_EQ(metadata->first_sample, 0);
+    EXPECT_EQ(metadata->last_sample, 14);
+    EXPECT_EQ(metadata->spp, 14);
+    EXPECT_EQ(metadata->error, read_snapshot_metadata(read_layers(folder / "whole.exr")->metadata)->error);
+
+    // And it can be resumed.
+    expect_done(with(with(tiny(folder / "longer.exr"), all_layers), {"--spp", "20", "--adaptive", "off"}));
+    expect_done(
+        with({"render", scene_file("cornell"), "--continue", folder / "merged.exr", "--spp", "20", "-o", folder / "on.exr", "--quiet"},
+             all_layers));
+    expect_same_channels(folder / "on.exr", folder / "longer.exr", 1);
+}
+
+// The sums do not depend on the light mix; the image does.
+TEST(Merge, OfFilmStatesAppliesTheLightMix) {
+    const TemporaryFolder folder;
+    const nlohmann::json channel{{"group", "light 2"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}};
+    const std::string scene = test::scene_with_mix(folder, "veach-mis", {{"grouping", "by_light"}, {"channels", {channel}}});
+    const auto render = [&](const std::string& name, const char* range) {
+        expect_done({"render", scene, "-o", folder / name, "--size", "24x16", "--quiet", "--layers", "film,groups", "--samples", range});
+    };
+    render("whole.exr", "0:6");
+    render("a.exr", "0:4");
+    render("b.exr", "4:6");
+    expect_done({"merge", "--quiet", "-o", folder / "merged.exr", folder / "a.exr", folder / "b.exr"});
+    expect_same_channels(folder / "merged.exr", folder / "whole.exr", 1);
+}
+
+TEST(Merge, OfMeansWeighsThemByTheirSamples) {
+    const TemporaryFolder folder;
+    const Arguments layers{"--layers", "depth,samples,error"};
+    expect_done(with(with(tiny(folder / "whole.exr"), layers), {"--samples", "0:12"}));
+    expect_done(with(with(tiny(folder / "a.exr"), layers), {"--samples", "0:9"}));
+    expect_done(with(with(tiny(folder / "b.exr"), layers), {"--samples", "9:12"}));
+    const nlohmann::json json = test::blush_json({"merge", folder / "a.exr", folder / "b.exr", "-o", folder / "merged.exr"});
+    EXPECT_EQ(json["from"], "means");
+    EXPECT_EQ(json["spp"], 12);
+    const LayeredImage merged = *read_layers(folder / "merged.exr"), whole = *read_layers(folder / "whole.exr"),
+                       a = *read_layers(folder / "a.exr"), b = *read_layers(folder / "b.exr");
+    for (size_t i = 0; i < 24 * 16; ++i) {
+        // Three roundings to single precision instead of one.
+        EXPECT_NEAR(merged.find("G")->values[i], whole.find("G")->values[i], 3e-7 * whole.find("G")->values[i]);
+        const double ea = 9.0 * a.find("error.R")->values[i], eb = 3.0 * b.find("error.R")->values[i];
+        EXPECT_FLOAT_EQ(merged.find("error.R")->values[i], float(std::hypot(ea, eb) / 12));
+        EXPECT_EQ(merged.find("samples.Y")->values[i], 12);
+        EXPECT_EQ(merged.find("depth.Z")->values[i], a.find("depth.Z")->values[i]);
+    }
+}
+
+TEST(Merge, RefusesImagesOfDifferentRenders) {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& name, const Arguments& more) { expect_done(with(tiny(folder / name), more)); };
+    render("a.exr", {"--samples", "0:2"});
+    render("gap.exr", {"--samples", "3:4"});
+    render("overlap.exr", {"--samples", "1:3"});
+    render("seed.exr", {"--samples", "2:4", "--seed", "1"});
+    render("sky.exr", {"--samples", "2:4", "--env", "constant=1,1,1"});
+    render("adaptive.exr", {"--spp", "2", "--adaptive", "on"});
+    const std::pair<const char*, const char*> wrong[] = {
+        {"gap.exr", "missing"},       {"overlap.exr", "contains sample 1"}, {"seed.exr", "other settings"},
+        {"sky.exr", "another scene"}, {"adaptive.exr", "cannot be merged"}, {"nowhere.exr", "nowhere.exr"},
+    };
+    for (const auto& [name, why] : wrong) {
+        const Finished finished = blush({"merge", folder / "a.exr", folder / name, "-o", folder / "out.exr"});
+        EXPECT_EQ(finished.exit_code, 1) << name;
+        EXPECT_NE(finished.err.find(why), std::string::npos) << name << ": " << finished.err;
+        EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
+    EXPECT_EQ(blush({"merge", folder / "a.exr", "-o", folder / "out.exr"}).exit_code, 2);
+    EXPECT_EQ(blush({"merge", folder / "a.exr", folder / "gap.exr", "-o", folder / "out.png"}).exit_code, 2);
+}
+
+} // namespace
+} // namespace blush::TEST_FILE

@@ -1,0 +1,37 @@
+// What the viewport shows of a frame: the beauty, or an image computed from its other planes (image_pixels.h). Only a view: it
+// does not restart the render and is not saved.
+#pragma once
+
+#include <vector>
+
+namespace blush {
+
+struct ImageView {
+    enum class Show {
+        beauty,
+        bounces,     // sum of the bounce planes, each with its gain
+        dropped,     // number of dropped samples
+        path_length, // mean number of vertices
+        survival,    // mean survival probability of Russian roulette
+        illuminance, // lux, for diffuse surfaces: input of the false colours in lux
+        albedo,      // first-hit data, as the next four
+        normal,
+        depth,
+        object_id,
+        material_id,
+        error,   // standard error of each pixel, relative to its value
+        samples, // per pixel
+        group,   // a light group, in the current light mix
+    };
+    Show show = Show::beauty;
+    std::vector<float> gains = {}; // per bounce
+    int group = 0;                 // index in the frame's light groups
+    bool operator==(const ImageView&) const = default;
+};
+
+// True if its colours represent numbers other than light.
+bool is_map(const ImageView& view);
+// True if its colours are display values: no exposure, no view transform.
+bool is_data(const ImageView& view);
+
+} // namespace blush
