@@ -304,6 +304,10 @@ TEST_F(LongNames, PopupsAndDialogs) {
                                .choices = {"Save", "Discard", "Cancel"}};
         extra = [](PanelContext& c, const Layout&) { draw_question(c); };
         expect_readable("question");
+        ui.question->choices = {"Save as " + long_name("File") + ".blush.gltf", "Overwrite " + long_name("File") + ".gltf", "Cancel"};
+        expect_readable("question with file names");
+        ui.question->choices = {"Save as table.blush.gltf", "Overwrite table.gltf", "Cancel"};
+        expect_readable("question with short file names");
         ui.question.reset();
     });
 }
