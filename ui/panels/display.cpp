@@ -103,15 +103,17 @@ void draw_exposure_fields(PanelContext& c, Fields& f, ViewSettings& v) {
 
 void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
     WhiteFields& white = c.ui.white;
+    const ColorTemperature neutral;
     if (white.color != v.white) {
-        const ColorTemperature t = temperature_of(v.white);
+        // Not computed for no white balance: 6504 K must be that exactly.
+        const ColorTemperature t = v.white == Vec3{1, 1, 1} ? neutral : temperature_of(v.white);
         white = {v.white, t.kelvin, t.green_tint};
     }
     bool changed = f.number(
         "Temperature", white.kelvin,
         {.min = min_kelvin,
          .max = max_kelvin,
-         .reset = ColorTemperature{}.kelvin,
+         .reset = neutral.kelvin,
          .unit = "K",
          .step = 10,
          .tip = "Colour temperature that is shown as white: bulbs 2700 K, noon sun 5500 K, shade 8000 K. 6504 K is no white balance.",
@@ -119,12 +121,11 @@ void draw_white_temperature(PanelContext& c, Fields& f, ViewSettings& v) {
     changed |= f.number("Green tint", white.green_tint,
                         {.min = -0.05f,
                          .max = 0.05f,
-                         .reset = ColorTemperature{}.green_tint,
+                         .reset = neutral.green_tint,
                          .step = 0.0002f,
                          .tip = "Distance of the white from the black body colours in CIE 1960 uv (Duv). Daylight has 0.0032.",
                          .format = "%+.4f"});
     if (!changed) return;
-    const ColorTemperature neutral;
     const bool as_rendered = white.kelvin == neutral.kelvin && white.green_tint == neutral.green_tint;
     const Vec3 color = black_body_color(white.kelvin, white.green_tint);
     v.white = white.color = as_rendered ? Vec3{1, 1, 1} : Vec3{std::max(color.x, 0.f), std::max(color.y, 0.f), std::max(color.z, 0.f)};

@@ -49,7 +49,15 @@ void take_typed(PanelContext& c) {
     else if (std::filesystem::is_regular_file(path, unreadable) && b.use != Use::snapshot_folder)
         finish(c, path);
     else
-        c.ui.toasts.fail("File not found: " + b.typed);
+        c.ui.toasts.fail((b.use == Use::snapshot_folder ? "Folder not found: " : "File not found: ") + b.typed);
+}
+
+// Accepts the typed folder, which is the shown one until another is typed.
+void use_typed_folder(PanelContext& c) {
+    const FileBrowser& b = *c.ui.browser;
+    std::error_code unreadable;
+    const std::filesystem::path path = meant_path(b.typed, b.folder);
+    std::filesystem::is_directory(path, unreadable) ? finish(c, path) : take_typed(c);
 }
 
 // Opens the selected file or folder.
@@ -229,8 +237,8 @@ void draw_buttons(PanelContext& c) {
             take_typed(c);
     } else {
         const bool folder = b.use == Use::snapshot_folder;
-        ImGui::BeginDisabled(!folder && b.chosen.empty());
-        if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) folder ? finish(c, b.folder) : take_chosen(c);
+        ImGui::BeginDisabled(!folder && b.typed == b.folder.string());
+        if (ImGui::Button(folder ? "Use this folder" : "Open", {width, 0})) folder ? use_typed_folder(c) : take_typed(c);
         ImGui::EndDisabled();
     }
     if (c.ui.browser) c.ui.probe.record_last_item("Browser/OK");

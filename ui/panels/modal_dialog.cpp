@@ -1,8 +1,12 @@
 // Modal dialog in the middle of the window.
 #include "ui/panels/panels.h"
+#include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
 
 namespace blush {
 namespace {
@@ -37,17 +41,23 @@ void choose_by_key(ModalDialog& dialog) {
     if (pressed(key::enter) || pressed(key::pad_enter) || pressed(key::space)) dialog.chosen = dialog.focused;
 }
 
-// Right-aligned. The first choice is the outermost, away from the others.
+// Right-aligned. The first choice is the outermost, away from the others. File names may be shortened; the text of the dialog has them.
 void draw_choices(PanelContext& c, ModalDialog& dialog) {
-    const float width = ImGui::GetFontSize() * 7, gap = ImGui::GetStyle().ItemSpacing.x;
-    const float all = float(dialog.choices.size()) * (width + gap) - gap;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float em = ImGui::GetFontSize(), gap = style.ItemSpacing.x;
+    std::vector<std::string> labels;
+    std::vector<float> widths;
+    for (const std::string& choice : dialog.choices) {
+        labels.push_back(elided_middle(choice, 15 * em));
+        widths.push_back(std::max(7 * em, ImGui::CalcTextSize(labels.back().c_str()).x + 2 * style.FramePadding.x));
+    }
+    const float all = std::accumulate(widths.begin(), widths.end(), gap * float(widths.size() - 1));
     ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - all));
     move_focus(dialog);
     for (size_t i = dialog.choices.size(); i-- > 0;) {
-        if (ImGui::Button(dialog.choices[i].c_str(), {width, 0})) dialog.chosen = i;
+        if (ImGui::Button((labels[i] + "##" + dialog.choices[i]).c_str(), {widths[i], 0})) dialog.chosen = i;
         if (i == dialog.focused)
-            ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), tone::text,
-                                                ImGui::GetStyle().FrameRounding);
+            ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), tone::text, style.FrameRounding);
         c.ui.probe.record_last_item("Dialog/" + dialog.choices[i]);
         if (i > 0) ImGui::SameLine();
     }

@@ -6,6 +6,7 @@
 #include "ui/panels/panels.h"
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/widgets/elided_text.h"
+#include "ui/widgets/value_text.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 
@@ -27,8 +28,8 @@ void row(const PanelContext& c, const char* name, const std::string& value) {
     elided_text(c.ui, value, tone::text);
 }
 
-std::string triple(const Vec3& v, const char* format = "{:.4g}  {:.4g}  {:.4g}") {
-    return fmt::format(fmt::runtime(format), v.x, v.y, v.z);
+std::string triple(const Vec3& v) {
+    return fmt::format("{}  {}  {}", shown_number(double(v.x)), shown_number(double(v.y)), shown_number(double(v.z)));
 }
 
 std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo, float coverage) {
@@ -55,7 +56,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     row(c, "Pixel", f.divider > 1 ? fmt::format("{}, {}  at 1/{} size", x, y, f.divider) : fmt::format("{}, {}", x, y));
     row(c, "Linear RGB", triple({rgba[0], rgba[1], rgba[2]}));
     const float nits = luminance(Vec3{rgba[0], rgba[1], rgba[2]});
-    row(c, "Luminance", fmt::format("{:.4g} nits", nits));
+    row(c, "Luminance", shown_number(double(nits)) + " nits");
     if (nits > 0)
         row(c, "EV from grey",
             fmt::format("{}   at ISO 100 {}",
@@ -64,7 +65,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     if (!f.albedo.empty() && luminance(f.albedo[i]) >= 0.01f) {
         float lux[3] = {rgba[0], rgba[1], rgba[2]};
         to_illuminance(lux, {&f.albedo[i], 1});
-        row(c, "Illuminance", fmt::format("{:.4g} lx, if diffuse", lux[0]));
+        row(c, "Illuminance", shown_number(double(lux[0])) + " lx, if diffuse");
     }
     if (c.denoised) row(c, "Denoised RGB", triple(denoised_pixel(f, *c.denoised, x, y)));
     const Vec3 shown = mixed_pixel(f, c.denoised.get(), mix_of(c.ui.denoise, c.denoised != nullptr), x, y);

@@ -10,6 +10,13 @@
 #include <numbers>
 
 namespace blush {
+namespace {
+
+// In font sizes, from the image's left and lower edge to the centre; the backdrop in radii.
+constexpr float dial_radius = 1.5f, dial_from_edge = 2.4f, dial_backdrop = 1.25f;
+
+} // namespace
+
 ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward) {
     constexpr double degree = std::numbers::pi / 180;
     const Heading to = heading_of(direction), ahead = heading_of(view_forward);
@@ -20,8 +27,8 @@ ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward) {
 bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered) {
     const Environment& e = c.scene().environment;
     if (e.kind == Environment::Kind::none) return false;
-    const float em = ImGui::GetFontSize(), radius = em * 1.5f, line = std::max(1.f, em / 12);
-    const ImVec2 centre{seen.x + em * 2.4f, seen.y + seen.height - em * 2.4f}, mouse = ImGui::GetIO().MousePos;
+    const float em = ImGui::GetFontSize(), radius = em * dial_radius, from_edge = em * dial_from_edge, line = std::max(1.f, em / 12);
+    const ImVec2 centre{seen.x + from_edge, seen.y + seen.height - from_edge}, mouse = ImGui::GetIO().MousePos;
     const bool under = hovered && std::hypot(mouse.x - centre.x, mouse.y - centre.y) < radius * 1.2f;
     const bool chosen = c.ui.environment_chosen();
     const bool shining = emits_light(e, any_solo(c.scene()));
@@ -30,8 +37,8 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
         const ScreenPoint p = dial_point(direction, projection.forward());
         return ImVec2{centre.x + p.x * radius * stretch, centre.y + p.y * radius * stretch};
     };
-    draw.AddCircleFilled(centre, radius * 1.25f, IM_COL32(20, 20, 20, under ? 210 : 150));
-    if (chosen) draw.AddCircle(centre, radius * 1.25f, tone::accent, 0, line * 1.5f);
+    draw.AddCircleFilled(centre, radius * dial_backdrop, IM_COL32(20, 20, 20, under ? 210 : 150));
+    if (chosen) draw.AddCircle(centre, radius * dial_backdrop, tone::accent, 0, line * 1.5f);
     draw.AddCircle(centre, radius, color, 0, line * 1.5f);
     if (e.kind != Environment::Kind::constant) {
         // Where north is, or the centre of the panorama.
@@ -53,6 +60,11 @@ bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& 
         c.ui.tab = InspectorTab::environment;
     }
     return pressed;
+}
+
+float environment_dial_width(const PanelContext& c) {
+    const bool shown = c.ui.settings.overlays && c.scene().environment.kind != Environment::Kind::none;
+    return shown ? ImGui::GetFontSize() * (dial_from_edge + dial_radius * dial_backdrop) : 0;
 }
 
 } // namespace blush

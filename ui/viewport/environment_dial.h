@@ -1,6 +1,5 @@
 // A dial in a corner of the image that shows the environment's rotation: top view, the view direction is up. A sky shows its
 // sun.
-// sun.
 #pragma once
 
 #include "ui/panel_context.h"
@@ -17,5 +16,8 @@ ScreenPoint dial_point(const Vec3d& direction, const Vec3d& view_forward);
 // Draws it; a click opens the World tab. Returns true if the dial uses the left button. `seen`: the visible part of the
 // image.
 bool draw_environment_dial(PanelContext& c, ImDrawList& draw, const Projection& projection, const ImageRect& seen, bool hovered);
+
+// Pixels from the left edge of the image that the dial takes at the lower edge; 0 if it is not shown.
+float environment_dial_width(const PanelContext& c);
 
 } // namespace blush

@@ -64,12 +64,15 @@ void draw_centred(const char* text) {
     ImGui::GetWindowDrawList()->AddText({at.x + (window.x - size.x) / 2, at.y + (window.y - size.y) / 2}, tone::dim_text, text);
 }
 
-// A caption at the lower or upper edge of the image.
-void write_caption(const ImageRect& image, const std::string& text, bool above = false) {
-    const float em = ImGui::GetFontSize(), room = image.width - 2 * em, margin = em * 0.7f;
+// A caption at the lower or upper edge of the image, beside the environment dial.
+void write_caption(PanelContext& c, const ImageRect& image, const std::string& text, bool above = false) {
+    const float em = ImGui::GetFontSize(), margin = em * 0.7f;
+    const float left = above ? em : std::max(environment_dial_width(c) + em / 2, em), room = image.width - left - em;
     const ImVec2 size = label_size(text, room);
     const float y = above ? image.y + margin : image.y + image.height - size.y - margin;
-    draw_label(*ImGui::GetWindowDrawList(), text, {image.x + (image.width - size.x) / 2, y}, room, tone::warning);
+    const ImVec2 at{image.x + std::max((image.width - size.x) / 2, left), y};
+    draw_label(*ImGui::GetWindowDrawList(), text, at, room, tone::warning);
+    c.ui.probe.record("Caption", {at.x, at.y, size.x, size.y});
 }
 
 // Mask over node ids: the node and all its descendants.
@@ -315,17 +318,17 @@ void Viewport::draw_image(PanelContext& c, const ImageRect& image, bool outlined
 }
 
 // The caption of a special view.
-void Viewport::draw_caption(const PanelContext& c, const ImageRect& image) const {
+void Viewport::draw_caption(PanelContext& c, const ImageRect& image) const {
     if (!is_special(*shown_frame_, uploaded_view_)) {
         // Frames from before the request do not have the plane.
         const AovView& wanted = c.ui.aov;
         const bool lacks =
             wanted.show != ImageView::Show::beauty && uploaded_view_ == image_view(wanted, int(shown_frame_->bounces.size()));
-        if (lacks) write_caption(image, name_of(wanted, shown_frame_.get()) + " is not rendered yet");
+        if (lacks) write_caption(c, image, name_of(wanted, shown_frame_.get()) + " is not rendered yet");
         return;
     }
     if (uploaded_view_.show == ImageView::Show::illuminance) return;
-    write_caption(image, caption_of(*shown_frame_, uploaded_view_));
+    write_caption(c, image, caption_of(*shown_frame_, uploaded_view_));
 }
 
 void Viewport::handle_requests(PanelContext& c, const NavigationResult& input, const Projection& projection, const ImageRect& image) {
@@ -423,7 +426,7 @@ ImageRect Viewport::draw_alone(PanelContext& c, const FrameBudget& pace, const c
     }
     region_backdrop_.forget(); // they belong to the previous scene
     draw_image(c, image, false, {});
-    write_caption(visible_part(image), caption, true); // below is the progress of the job
+    write_caption(c, visible_part(image), caption, true); // below is the progress of the job
     return image;
 }
 

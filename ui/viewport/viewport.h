@@ -53,7 +53,7 @@ private:
     void draw_image(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame);
     void draw_surroundings(PanelContext& c, const ImageRect& image, const FrameBudget& pace);
     void draw_outline(const PanelContext& c, const ImageRect& image);
-    void draw_caption(const PanelContext& c, const ImageRect& image) const;
+    void draw_caption(PanelContext& c, const ImageRect& image) const;
     bool draw_overlays(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered);
     void navigate(PanelContext& c, const Projection& projection, const ImageRect& image, bool hovered, bool on_handle);
     void handle_requests(PanelContext& c, const NavigationResult& input, const Projection& projection, const ImageRect& image);

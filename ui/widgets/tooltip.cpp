@@ -47,7 +47,7 @@ void tip_for_last_item(UiState& ui, const char* tip) {
     const ImVec2 text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, wrap), padding = ImGui::GetStyle().WindowPadding;
     place_next_tip({text.x + 2 * padding.x, text.y + 2 * padding.y});
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(wrap);
+    ImGui::PushTextWrapPos(padding.x + wrap); // for words that are longer than a line
     ImGui::TextUnformatted(lines.c_str());
     ImGui::PopTextWrapPos();
     ui.probe.record("Tooltip", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});

@@ -8,6 +8,7 @@
 #include <cfloat>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 namespace blush {
 namespace {
@@ -66,9 +67,11 @@ uint8_t byte_of(float linear) { return uint8_t(std::lround(std::clamp(srgb_from_
 
 std::string number_text(double value) { return fmt::format("{}", float(value) + 0.f); }
 
-std::string fraction_text(double value) {
-    return value > 0 && value < 1 ? fmt::format("1/{:.4g}", 1 / value) : fmt::format("{:.4g}", value);
-}
+const char* number_format(double value) { return std::abs(value) >= 9999.5 && std::abs(value) < 1e7 ? "%.0f" : "%.4g"; }
+
+std::string shown_number(double value) { return fmt::sprintf(number_format(value), value); }
+
+std::string fraction_text(double value) { return value > 0 && value < 1 ? fmt::format("1/{:.4g}", 1 / value) : shown_number(value); }
 
 std::string triple_text(const Vec3& v) { return number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z); }
 

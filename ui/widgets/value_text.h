@@ -18,6 +18,10 @@ std::string hex_text(const Vec3& linear);
 // "srgb(0.9, 0.5, 0.25)", display-encoded.
 std::string srgb_text(const Vec3& linear);
 
+// Four digits, and whole numbers up to ten million: "0.25", "100000", "1.5e+07".
+std::string shown_number(double value);
+// The same for printf.
+const char* number_format(double value);
 // "1/125" below 1, with four digits.
 std::string fraction_text(double value);
 

@@ -19,9 +19,11 @@ constexpr float label_share = 0.4f; // of a row's width
 
 float label_width() { return std::floor(ImGui::GetWindowContentRegionMax().x * label_share); }
 
+const char* number_format_of(float value, const NumberStyle& style) { return *style.format ? style.format : number_format(double(value)); }
+
 // "%.4g" and "m" -> "%.4g m"; a per cent sign is doubled. A fraction is its own format: ImGui then does not round the value.
 std::string format_with_unit(float value, const NumberStyle& style) {
-    std::string format = style.fraction ? fraction_text(double(value)) : style.format;
+    std::string format = style.fraction ? fraction_text(double(value)) : number_format_of(value, style);
     if (*style.unit) format += ' ';
     for (const char* c = style.unit; *c; ++c) format += *c == '%' ? "%%" : std::string(1, *c);
     return format;
@@ -127,7 +129,7 @@ bool Fields::number_field(const char* id, float& value, const NumberStyle& style
     const float width = ImGui::CalcItemWidth();
     const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
     const std::string format = format_with_unit(value, style);
-    float edited = shown_value(value, style.format);
+    float edited = shown_value(value, number_format_of(value, style));
     bool changed = false;
     if (style.bar) {
         draw_bar((value - style.min) / (style.max - style.min), width);
@@ -160,7 +162,7 @@ bool Fields::angle(const char* label, float& radians, const NumberStyle& style) 
     constexpr float to_degrees = 57.29577951f;
     NumberStyle degrees_style = style;
     degrees_style.unit = "°";
-    degrees_style.format = "%.4g";
+    degrees_style.format = "";
     float degrees = radians * to_degrees;
     if (!number(label, degrees, degrees_style)) return false;
     radians = degrees / to_degrees;

@@ -19,11 +19,11 @@ struct NumberStyle {
     float min = -FLT_MAX, max = FLT_MAX;
     float reset = 0; // the default
     const char* unit = "";
-    float step = 0;              // per pixel of a drag; 0: 0.5 % of the value, for large ranges
-    bool bar = false;            // a filled bar from min to max instead of a drag field
-    const char* tip = "";        // tooltip: its physical meaning
-    const char* format = "%.4g"; // without the unit
-    bool fraction = false;       // below 1 shown as 1/N, whatever the format
+    float step = 0;          // per pixel of a drag; 0: 0.5 % of the value, for large ranges
+    bool bar = false;        // a filled bar from min to max instead of a drag field
+    const char* tip = "";    // tooltip: its physical meaning
+    const char* format = ""; // without the unit; "": as number_format()
+    bool fraction = false;   // below 1 shown as 1/N, whatever the format
 };
 
 class Fields {

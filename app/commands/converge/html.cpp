@@ -23,7 +23,7 @@ body{font:15px/1.5 system-ui,sans-serif;color:#222;background:#fff;max-width:134
 h1{font-size:1.6rem;margin:0 0 .3rem} h2{font-size:1.15rem;margin:2rem 0 .6rem} p{max-width:50rem;margin:.5rem 0} .quiet{color:#666}
 .row{display:flex;flex-wrap:wrap;gap:1.2rem} figure{margin:0} figcaption{font-size:.88rem;color:#444} img{display:block;border:1px solid #ddd}
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums} th,td{padding:.3rem .8rem;border-bottom:1px solid #ddd;text-align:right}
-th:first-child,td:first-child{text-align:left} thead th{border-bottom:2px solid #999;font-weight:600} td small{color:#666;display:block}
+th:first-child,td:first-child{text-align:left} thead th{border-bottom:2px solid #999;font-weight:600} td small{color:#666;display:block} td:first-child{min-width:11rem} .interval{white-space:nowrap}
 .swatch{display:inline-block;width:.8em;height:.8em;margin-right:.5em;border-radius:2px} .biased{color:#a33000;font-weight:600}
 svg{max-width:100%;height:auto} code{font-size:.9em;overflow-wrap:anywhere} dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem} dd{margin:0}
 @media print{body{margin:0;max-width:none;font-size:11pt} h2{break-after:avoid} figure,tr{break-inside:avoid}}
@@ -98,7 +98,7 @@ Plot error_plot(const ConvergeReport& report, const std::string& title, const st
 
 std::string with_interval(const Interval& i) {
     if (!i.known) return i.value != 0 ? fmt::format("{:.3g}", i.value) : std::string("–");
-    return fmt::format("{:.3g}<small>{:.3g} to {:.3g}</small>", i.value, i.low, i.high);
+    return fmt::format("{:.3g}<small class='interval'>{:.3g} to {:.3g}</small>", i.value, i.low, i.high);
 }
 
 std::string bias_cell(const VariantResult& v) {

@@ -78,6 +78,24 @@ size_t unique_triangles(const std::vector<SceneObject>& objects) {
     return n;
 }
 
+// False if the transform flattens every triangle to a line or a point: a wall scaled by 0 in height. Ends at the first triangle
+// with area.
+bool keeps_area(const SceneObject& object, const Affined& m) {
+    for (const MeshPart& part : object.parts) {
+        const Geometry& g = *part.geometry;
+        const auto corner = [&](size_t i) { return transform_vector(m, to_double(g.positions[g.indices[i]])); };
+        for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
+            const Vec3d a = corner(i), along = corner(i + 1) - a, across = corner(i + 2) - a;
+            if (length(cross(along, across)) > zero_share * length(along) * length(across)) return true;
+        }
+    }
+    return false;
+}
+
+bool has_area(const SceneObject& object, const PlaceSplit& split) {
+    return split.has_area && (split.invertible || keeps_area(object, split.stretch));
+}
+
 bool all_invertible(const SceneObject& object) {
     for (size_t copy = 0; copy < object.copies(); ++copy) {
         const PlaceSplit split = split_place(object.world_from_copy(copy));
@@ -85,6 +103,8 @@ bool all_invertible(const SceneObject& object) {
     }
     return true;
 }
+
+Affined as_affine(const BakedTransforms::Stretch& s) { return {{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[6], s[7], s[8]}, {0, 0, 0}}; }
 
 struct SortedPlaces {
     std::vector<Affined> invertible;
@@ -165,7 +185,7 @@ GeometryPtr BakedTransforms::baked(const GeometryPtr& geometry, const Stretch& s
     GeometryPtr& shape = used[key];
     if (shape) return shape;
     if (const auto known = known_.find(key); known != known_.end()) return shape = known->second;
-    const Affined stretch{{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[6], s[7], s[8]}, {0, 0, 0}}, normals = cofactor(stretch);
+    const Affined stretch = as_affine(s), normals = cofactor(stretch);
     auto result = std::make_shared<Geometry>(*geometry);
     result->serial = next_payload_serial();
     for (Vec3& p : result->positions) p = to_float(transform_vector(stretch, to_double(p)));
@@ -187,7 +207,8 @@ void BakedTransforms::bake(const Scene& scene, std::vector<SceneObject>& objects
     result.reserve(objects.size());
     for (SceneObject& object : objects) {
         const bool flat = !object.instanced; // its vertices are in world space: any transform will do
-        if (flat && !is_expanded(object.node)) warn(scene, object, !split_place(object.world_from_object).has_area, without_area, left_out);
+        if (flat && !is_expanded(object.node))
+            warn(scene, object, !has_area(object, split_place(object.world_from_object)), without_area, left_out);
         if (flat || all_invertible(object)) {
             result.push_back(std::move(object));
             continue;
@@ -196,6 +217,10 @@ void BakedTransforms::bake(const Scene& scene, std::vector<SceneObject>& objects
         size_t over_budget = 0;
         if (!sorted.invertible.empty()) result.push_back(at_places(object, std::move(sorted.invertible)));
         for (auto& [stretch, places] : sorted.stretched) {
+            if (!keeps_area(object, as_affine(stretch))) {
+                sorted.without_area += places.size();
+                continue;
+            }
             size_t more = 0;
             for (const MeshPart& part : object.parts)
                 if (!made.contains({part.geometry->serial, stretch})) more += part.geometry->triangle_count();

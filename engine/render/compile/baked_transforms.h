@@ -33,8 +33,9 @@ class BakedTransforms {
 public:
     using Stretch = std::array<double, 9>; // column-major
     // Replaces instances without a usable inverse by objects with their own meshes, each placed after the object that it comes
-    // from; instances with equal stretch share a mesh. Removes instances without area and those beyond max_baked_triangles, and
-    // adds a warning for each affected node and for other objects without area. Meshes of the last call are reused.
+    // from; instances with equal stretch share a mesh. Removes instances that are flattened to nothing and those beyond
+    // max_baked_triangles, and adds a warning for each affected node and for other objects that are. Meshes of the last call are
+    // reused.
     void bake(const Scene& scene, std::vector<SceneObject>& objects, std::vector<Diagnostic>& left_out);
 
 private:

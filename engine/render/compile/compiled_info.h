@@ -20,7 +20,7 @@ struct CompiledInfo {
     FeatureReport features;           // feature report: of the kernel and of everything built only if needed
     double memory_mb = 0;             // tables, textures and Embree's BVH
     double seconds_setup = 0;         // the last update: from scene to first ray
-    std::vector<Diagnostic> warnings; // triangles without area dropped, non-finite transforms, ...
+    std::vector<Diagnostic> warnings; // objects without area, broken textures, ...
 };
 
 } // namespace blush

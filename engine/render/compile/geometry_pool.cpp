@@ -299,35 +299,6 @@ void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
     }
 }
 
-int64_t GeometryPool::degenerate_in(size_t part) const {
-    const PartRecord& record = parts_[part];
-    const uint32_t* corner = all_indices_ + record.first_index;
-    const Vec3* positions = all_positions_ + record.first_vertex;
-    const auto position = [&](uint32_t i) { return to_double(positions[i]); };
-    int64_t n = 0;
-    for (int64_t t = 0; t < part_triangles_[part]; ++t, corner += 3) {
-        const Vec3d a = position(corner[0]), normal = cross(position(corner[1]) - a, position(corner[2]) - a);
-        n += !(dot(normal, normal) > 0);
-    }
-    return n;
-}
-
-int64_t GeometryPool::degenerate_count() const {
-    std::map<int32_t, int64_t> in_object_space; // of instanced geometry, by its first index
-    int64_t n = 0;
-    for (size_t part = 0; part < parts_.size(); ++part) {
-        const PartRecord& record = parts_[part];
-        if (record.transform < 0) {
-            n += degenerate_in(part);
-            continue;
-        }
-        const auto [known, is_new] = in_object_space.try_emplace(record.first_index, 0);
-        if (is_new) known->second = degenerate_in(part);
-        n += known->second;
-    }
-    return n;
-}
-
 void GeometryPool::fill(SceneTables& t) const {
     const auto pointer = [&](const auto& own, Attribute attribute, bool used) {
         const auto* base = used ? base_of(own, vertex_range_ != nullptr, attribute) : nullptr;

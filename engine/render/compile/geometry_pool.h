@@ -53,8 +53,6 @@ public:
     // Indices of the parts that have one of these materials (in id order), ascending. `objects` as passed to build().
     std::vector<size_t> parts_of(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& materials) const;
     int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
-    // Number of triangles without area in the scene.
-    int64_t degenerate_count() const;
     // World-space vertices of a part's triangle, computed like the kernels do.
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;
 
@@ -82,7 +80,6 @@ private:
         int32_t first_vertex = 0, first_index = 0;
     };
     void reserve(const std::vector<SceneObject>& objects);
-    int64_t degenerate_in(size_t part) const; // in stored coordinates
     Span append(const Geometry& geometry);
     // Span of a mesh, here or in the document; missing ones are appended. `shared`: known instanced meshes by serial.
     Span find_or_append(const SceneObject& object, const GeometryPtr& geometry, std::map<uint64_t, Span>& shared);

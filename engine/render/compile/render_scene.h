@@ -54,7 +54,7 @@ public:
     bool may_be_lambertian() const { return used_.lambertian; }
     // See missing_light.h.
     const std::string& missing_light() const { return missing_light_; }
-    // Of the last update. Triangles without area are not among them: info() looks for these, which reads every triangle.
+    // Of the last update.
     const std::shared_ptr<const std::vector<Diagnostic>>& warnings() const { return warnings_; }
     // Everything except the kernel and the feature report.
     CompiledInfo info() const;

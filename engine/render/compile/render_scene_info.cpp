@@ -9,11 +9,6 @@ namespace {
 
 std::string counted(int64_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
-Diagnostic degenerate_triangles(int64_t n) {
-    return {Diagnostic::Severity::warning,
-            counted(n, "triangle has no area and cannot be seen", "triangles have no area and cannot be seen"), ""};
-}
-
 } // namespace
 
 void RenderScene::update_warnings() {
@@ -61,8 +56,6 @@ CompiledInfo RenderScene::info() const {
             info.instances -= objects_[i].instanced ? int64_t(objects_[i].copies()) : 0;
             info.triangles -= int64_t(objects_[i].copies() * objects_[i].triangle_count());
         }
-        if (const int64_t degenerate = geometry_.degenerate_count(); degenerate > 0)
-            info.warnings.push_back(degenerate_triangles(degenerate));
     }
     const size_t bytes = geometry_.memory_bytes() + accel_.memory_bytes() + materials_.textures.memory_bytes() +
                          environment_.texels.capacity() * 4 + environment_.column_thresholds.capacity() * 4 +

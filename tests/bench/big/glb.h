@@ -25,7 +25,8 @@ struct Glb {
     }
     // `type`: "VEC3", ...; 5126 are floats, 5125 unsigned integers.
     template <class T> size_t accessor(const std::vector<T>& values, size_t components, const char* type) {
-        json["accessors"].push_back({{"bufferView", view(values.data(), values.size() * sizeof(T))},
+        const size_t at = view(values.data(), values.size() * sizeof(T)); // first: a new member moves the others
+        json["accessors"].push_back({{"bufferView", at},
                                      {"componentType", std::is_same_v<T, float> ? 5126 : 5125},
                                      {"count", values.size() / components},
                                      {"type", type}});

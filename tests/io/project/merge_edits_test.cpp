@@ -203,7 +203,10 @@ TEST(MergeEdits, LightingThatAnotherProgramDropsIsKept) {
     saved.scene.nodes.set(saved.vase, on_vase);
     saved.scene.environment.kind = Environment::Kind::constant;
     saved.scene.environment.intensity = 3;
+    saved.scene.mix.grouping = LightMix::Grouping::by_light;
     saved.tint({1, 0, 0});
+    saved.brighten(9);
+    saved.move(saved.stand, {1, 2, 3});
     const Scene base = without_lighting_missing_in(exported.scene, saved.scene);
     const MergedEdits merged = merge_edits(base, saved.scene, exported.scene);
     EXPECT_TRUE(validate(merged.scene));
@@ -218,7 +221,14 @@ TEST(MergeEdits, LightingThatAnotherProgramDropsIsKept) {
     EXPECT_EQ(merged.scene.lights.find(merged.scene.nodes.find(nodes["Vase"])->light)->name, "Glow");
     EXPECT_EQ(merged.scene.lights.size(), exported.scene.lights.size() + 2);
     EXPECT_EQ(merged.scene.environment.intensity, 3);
-    EXPECT_EQ(merged.scene.materials, exported.scene.materials) << "what the other program writes is taken from it";
+    EXPECT_EQ(merged.scene.mix, saved.scene.mix);
+    EXPECT_EQ(merged.scene.nodes.size(), exported.scene.nodes.size() + 2);
+    EXPECT_EQ(kept->local, on_rig.local);
+    EXPECT_EQ(merged.scene.nodes.find(nodes["Rig"])->local, rig.local);
+    // What the other program writes is taken from it.
+    EXPECT_EQ(merged.scene.materials, exported.scene.materials);
+    EXPECT_EQ(merged.scene.lights.find(exported.light)->intensity, 5);
+    EXPECT_EQ(*merged.scene.nodes.find(exported.stand), *exported.scene.nodes.find(exported.stand));
 }
 
 } // namespace

@@ -149,6 +149,19 @@ TEST(Flattened, ToALineOrAPointAreRemovedWithAWarning) {
     EXPECT_TRUE(warnings_of(pair_of({1, 1, 0}, How::shared_mesh)).empty());
 }
 
+// The transform keeps an area, but the shape is upright to it. Of a shape that leans a part is left.
+TEST(Flattened, ShapesThatAreFlattenedToALineAreReported) {
+    for (const float height : {0.f, 1e-30f})
+        for (const How how : {How::own_mesh, How::shared_mesh, How::copies}) {
+            const Scene scene = pair_of({1, height, 1}, how, quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}));
+            EXPECT_EQ(pixels_of(image_of(scene), 1), 0u);
+            const std::vector<Diagnostic> warnings = warnings_of(scene);
+            ASSERT_EQ(warnings.size(), how == How::copies ? 1u : 2u);
+            EXPECT_NE(warnings[0].what.find("not rendered: no area"), std::string::npos) << warnings[0].what;
+            EXPECT_TRUE(warnings_of(pair_of({1, height, 1}, how)).empty());
+        }
+}
+
 // The window shows them with each image; they are the same object until they change.
 TEST(Flattened, WarningsComeWithTheImage) {
     Renderer renderer({.threads = 1, .planes = {}});

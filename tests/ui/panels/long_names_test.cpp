@@ -299,11 +299,12 @@ TEST_F(LongNames, PopupsAndDialogs) {
         extra = [](PanelContext& c, const Layout&) { draw_shortcut_sheet(c); };
         expect_readable("shortcuts");
         ui.show_shortcuts = false;
-        ui.dialog = ModalDialog{.text = "Save " + long_name("File") + " before it is closed?",
-                                .details = long_name("Details"),
-                                .choices = {"Save", "Discard", "Cancel"}};
+        ui.dialog = ModalDialog{.text = "Save " + long_name("File") + " before it is closed?", .details = long_name("Details")};
         extra = [](PanelContext& c, const Layout&) { draw_modal_dialog(c); };
-        expect_readable("modal dialog");
+        for (const std::string& file : {long_name("File"), std::string("table")}) {
+            ui.dialog->choices = {"Save as " + file + ".blush.gltf", "Overwrite " + file + ".gltf", "Cancel"};
+            expect_readable("modal dialog about " + file);
+        }
         ui.dialog.reset();
     });
 }

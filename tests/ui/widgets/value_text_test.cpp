@@ -2,6 +2,7 @@
 #include "ui/widgets/value_text.h"
 
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -23,6 +24,12 @@ TEST(ValueText, AcceptsUnitsBlanksAndCommas) {
     EXPECT_FALSE(pasted_number("1,000,000"));
     EXPECT_FALSE(pasted_number("0x10"));
     EXPECT_FALSE(pasted_number(std::string(200, '1')));
+}
+
+TEST(ValueText, LargeNumbersAreWhole) {
+    const std::pair<double, const char*> shown[] = {{0.25, "0.25"},     {1234.4, "1234"},     {9999.7, "10000"},  {100000, "100000"},
+                                                    {-20000, "-20000"}, {251327.4, "251327"}, {1.5e7, "1.5e+07"}, {1e-5, "1e-05"}};
+    for (const auto& [value, text] : shown) EXPECT_EQ(shown_number(value), text);
 }
 
 TEST(ValueText, FractionsRoundTrip) {

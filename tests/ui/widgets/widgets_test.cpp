@@ -2,6 +2,7 @@
 #include "tests/ui/imgui_test.h"
 #include "ui/widgets/value_menu.h"
 #include "ui/widgets/widgets.h"
+#include "ui/widgets/wrapped_text.h"
 #include "ui/window/imgui_state.h"
 
 #include <imgui_internal.h>
@@ -187,6 +188,23 @@ TEST_F(Widgets, TooltipAppearsAtRest) {
     const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
     ASSERT_TRUE(tip);
     EXPECT_TRUE(tip->WasActive && !tip->Hidden);
+}
+
+TEST_F(Widgets, TooltipBreaksItsLinesOnce) {
+    ImGui::GetIO().DeltaTime = 0.1f;
+    for (size_t first = 1; first < 30; ++first) { // its first line ends anywhere
+        std::string text(first, 'i');
+        for (int i = 0; i < 30; ++i) text += " word";
+        style.tip = text.c_str();
+        rest();
+        move(middle());
+        for (int i = 0; i < 10; ++i) frame();
+        const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+        ASSERT_TRUE(tip && tip->WasActive && !tip->Hidden) << first;
+        const std::string lines = wrapped(text, ImGui::GetFontSize() * 24);
+        const auto count = 1 + std::ranges::count(lines, '\n');
+        EXPECT_NEAR(tip->Size.y - 2 * ImGui::GetStyle().WindowPadding.y, float(count) * ImGui::GetTextLineHeight(), 1) << lines;
+    }
 }
 
 TEST_F(Widgets, TooltipHasADelayOfHalfASecond) {

@@ -3,6 +3,7 @@
 
 #include "scene/lights/ies_profile.h"
 #include "ui/widgets/polar_plot.h"
+#include "ui/widgets/value_text.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ void draw_light_distribution(Fields& f, PanelContext& c, Light& light) {
     const IesProfile& profile = *light.ies;
     f.info("IES file", std::filesystem::path(light.ies_file).filename().string(), light.ies_file.c_str());
     draw_polar_plot(profile, light);
-    f.info("", fmt::format("{:.4g} lm, peak {:.4g} cd", luminous_flux(profile), profile.peak));
+    f.info("", fmt::format("{} lm, peak {} cd", shown_number(luminous_flux(profile)), shown_number(double(profile.peak))));
     if (f.button("As measured", "Set the intensity to the peak candela of the file. The intensity is that of the brightest direction.")) {
         light.intensity = profile.peak;
         f.note_change();

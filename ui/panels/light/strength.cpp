@@ -4,6 +4,7 @@
 #include "core/srgb.h"
 #include "scene/lights/color_temperature.h"
 #include "scene/lights/light_units.h"
+#include "ui/widgets/value_text.h"
 #include "ui/window/theme.h"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ void draw_intensity(Fields& f, Light& light, double area_scale) {
     if (is_ev) style = {.min = min_ev, .max = 40, .reset = 0, .unit = text.suffix, .step = 0.02f, .tip = text.tip, .format = "%.2f"};
     if (f.number("Intensity", value, style)) light.intensity = intensity_of(light, unit, double(value), area_scale);
     if (light.kind != Light::Kind::sun && unit != Light::Unit::lumen)
-        f.info("", fmt::format("{:.4g} lm in all", luminous_flux(light, area_scale)));
+        f.info("", shown_number(luminous_flux(light, area_scale)) + " lm in all");
 }
 
 // A coloured stripe below the last field.

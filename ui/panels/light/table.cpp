@@ -11,6 +11,7 @@
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/row_clicks.h"
 #include "ui/widgets/tooltip.h"
+#include "ui/widgets/value_text.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/theme.h"
 
@@ -92,7 +93,7 @@ void set_intensity(PanelContext& c, const LightRow& row, float intensity) {
 void draw_intensity(PanelContext& c, const LightRow& row, const std::string& scope) {
     float value = row.intensity;
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const std::string format = fmt::format("%.4g {}", row.unit);
+    const std::string format = fmt::format("{} {}", number_format(double(value)), row.unit);
     const bool changed = ImGui::DragFloat("##intensity", &value, std::max(std::abs(value) * 0.005f, 1e-4f), 0, 1e12f, format.c_str(),
                                           ImGuiSliderFlags_AlwaysClamp);
     wrap_cursor_if_dragged(c.ui);
