@@ -208,6 +208,11 @@ void toggle_meters(PanelContext& c) {
     if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
 }
 
+void snapshots_beside_scene(PanelContext& c) {
+    c.ui.settings.snapshot_folder.clear();
+    c.ui.toasts.note("Snapshots go beside the scene again");
+}
+
 struct CommandAction {
     Command command;
     void (*run)(PanelContext&);
@@ -217,6 +222,7 @@ constexpr CommandAction command_actions[] = {
     {Command::redo, [](PanelContext& c) { c.document.redo(); }},
     {Command::copy_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::copy); }},
     {Command::paste_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::paste); }},
+    {Command::snapshots_beside_scene, snapshots_beside_scene},
     {Command::reset_value, [](PanelContext& c) { request_value_action(c.ui, ValueAction::reset); }},
     {Command::duplicate, duplicate},
     {Command::remove, remove},

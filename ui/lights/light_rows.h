@@ -35,8 +35,8 @@ Edit with_switches(const Scene& scene, const LightRow& row, bool on, bool solo);
 
 // Contribution of a row to an image rendered with light groups; known only per group.
 struct RowShare {
-    double energy = 0, noise = 0; // fractions of the image's luminance and of its noise variance, 0 .. 1
-    bool alone = false;           // the only light in its group; otherwise the values are those of the whole group
+    std::optional<double> energy, noise; // fractions of the image's luminance and of its noise variance, 0 .. 1; nullopt: not known yet
+    bool alone = false;                  // the only light in its group; otherwise the values are those of the whole group
 };
 // `reports`: of the frame's groups. nullopt for a light added after the frame.
 std::optional<RowShare> share_of(const LightRow& row, const LightGroups& groups, std::span<const GroupReport> reports);

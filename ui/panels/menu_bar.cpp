@@ -88,6 +88,7 @@ void draw_file_menu(PanelContext& c) {
     item(c, Command::snapshot_exr);
     item(c, Command::snapshot_png);
     item(c, Command::snapshot_folder);
+    item(c, Command::snapshots_beside_scene, !c.ui.settings.snapshot_folder.empty());
     ImGui::Separator();
     item(c, Command::load_convergence);
     ImGui::Separator();

@@ -26,6 +26,7 @@ constexpr Shortcut table[] = {
     {Command::snapshot_exr, "File", "Take snapshot", plain(key::f1 + 11), ctrl(key::enter)},
     {Command::snapshot_png, "File", "Save snapshot (PNG)", ctrl_alt('S')},
     {Command::snapshot_folder, "File", "Snapshot folder...", in_menu_only},
+    {Command::snapshots_beside_scene, "File", "Snapshots beside the scene", in_menu_only},
     {Command::load_convergence, "File", "Load convergence table...", in_menu_only},
     {Command::quit, "File", "Quit", ctrl('Q')},
     {Command::undo, "Edit", "Undo", ctrl('Z')},

@@ -34,6 +34,7 @@ enum class Command {
     snapshot_exr,
     snapshot_png,
     snapshot_folder,
+    snapshots_beside_scene,
     snapshot_strip,
     dock_all,
     undelete_snapshot,

@@ -54,8 +54,11 @@ OrderedJson groups_json(const Frame& frame) {
     const std::vector<GroupReport> reports = report_groups(frame, frame.group_names, frame.gains);
     for (size_t k = 0; k < reports.size(); ++k) {
         const Vec3& gain = frame.gains[k];
-        groups.push_back(
-            {{"group", reports[k].name}, {"energy", reports[k].energy}, {"noise", reports[k].noise}, {"gain", {gain.x, gain.y, gain.z}}});
+        const std::optional<double>& noise = reports[k].noise;
+        groups.push_back({{"group", reports[k].name},
+                          {"energy", reports[k].energy},
+                          {"noise", noise ? OrderedJson(*noise) : OrderedJson()},
+                          {"gain", {gain.x, gain.y, gain.z}}});
     }
     return groups;
 }

@@ -134,13 +134,12 @@ std::vector<GroupReport> report_groups(const Frame& frame, std::span<const std::
     const double noise = variance_of(frame, gains);
     for (size_t k = 0; k < frame.group_shares.size(); ++k) {
         const GroupShare& share = frame.group_shares[k];
-        reports.push_back({names[k], luminance(share.mean * to_double(gains[k])), variance_of(share, gains[k])});
+        reports.push_back({names[k], luminance(share.mean * to_double(gains[k])), std::nullopt});
+        if (noise > 0) reports.back().noise = variance_of(share, gains[k]) / noise;
         energy += reports.back().energy;
     }
-    for (GroupReport& r : reports) {
-        if (energy > 0) r.energy /= energy;
-        if (noise > 0) r.noise /= noise;
-    }
+    if (energy > 0)
+        for (GroupReport& r : reports) r.energy /= energy;
     return reports;
 }
 

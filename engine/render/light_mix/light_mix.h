@@ -4,6 +4,7 @@
 #include "render/frame.h"
 #include "render/light_mix/light_groups.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,7 +40,8 @@ std::vector<std::vector<Vec3>> mixed_groups(const Frame& frame);
 struct GroupReport {
     std::string name;
     double energy = 0; // its share of the image's luminance
-    double noise = 0;  // its share of the variance, channels together; assumes independent groups
+    // Its share of the variance, channels together; assumes independent groups. nullopt: no variance is known yet.
+    std::optional<double> noise;
 };
 std::vector<GroupReport> report_groups(const Frame& frame, std::span<const std::string> names, std::span<const Vec3> gains);
 

@@ -317,10 +317,28 @@ TEST(LightMix, ReportsSharesThatSumToOne) {
     double energy = 0, noise = 0;
     for (const GroupReport& r : report_groups(frame, frame.group_names, frame.gains)) {
         energy += r.energy;
-        noise += r.noise;
+        ASSERT_TRUE(r.noise);
+        noise += *r.noise;
     }
     EXPECT_NEAR(energy, 1, 1e-9);
     EXPECT_NEAR(noise, 1, 1e-9);
+}
+
+// One sample per pixel has no variance: the shares of the noise are unknown, not 0.
+TEST(LightMix, KnowsNoNoiseOfOneSample) {
+    RenderedStudio rendered;
+    auto& [studio, settings, renderer] = rendered;
+    RenderSettings one = settings;
+    one.seed = settings.seed + 1;
+    renderer.update(studio.scene, one);
+    renderer.render(0, 1);
+    const Frame frame = renderer.resolve();
+    const std::vector<GroupReport> reports = report_groups(frame, frame.group_names, frame.gains);
+    ASSERT_GT(reports.size(), 1u);
+    for (const GroupReport& r : reports) {
+        EXPECT_GE(r.energy, 0);
+        EXPECT_FALSE(r.noise) << r.name;
+    }
 }
 
 // ---- baking

@@ -78,8 +78,9 @@ void draw_heading(PanelContext& c, const GroupReport& report, LightMix& mix, boo
     ImGui::SameLine();
     const float em = ImGui::GetFontSize();
     const bool narrow = ImGui::GetContentRegionAvail().x < 16 * em; // the tooltip also has the noise
-    const std::string light = fmt::format("{:.1f} % light", 100 * report.energy), noise = fmt::format("{:.1f} % noise", 100 * report.noise);
-    const std::string figures = narrow ? light : light + "  " + noise;
+    const std::string light = fmt::format("{:.1f} % light", 100 * report.energy);
+    const std::string noise = report.noise ? fmt::format("{:.1f} % noise", 100 * *report.noise) : "noise not known yet";
+    const std::string figures = narrow || !report.noise ? light : light + "  " + noise;
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(figures.c_str()).x - em;
     bool unfolded = c.ui.light_mix.unfolded == group;
     ImGui::AlignTextToFramePadding();

@@ -155,9 +155,10 @@ void draw_name(PanelContext& c, RowClicks& clicks, const LightRow& row, const st
 }
 
 // In brackets if it is the share of a whole group.
-void draw_share(PanelContext& c, const std::optional<RowShare>& share, double RowShare::*figure) {
+void draw_share(PanelContext& c, const std::optional<RowShare>& share, std::optional<double> RowShare::*figure) {
     ImGui::AlignTextToFramePadding();
-    const std::string text = !share ? "-" : fmt::format(fmt::runtime(share->alone ? "{:.1f} %" : "({:.1f} %)"), 100 * (*share).*figure);
+    const std::optional<double> known = share ? (*share).*figure : std::nullopt;
+    const std::string text = !known ? "-" : fmt::format(fmt::runtime(share->alone ? "{:.1f} %" : "({:.1f} %)"), 100 * *known);
     const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize() * 0.4f;
     if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
     ImGui::TextUnformatted(text.c_str());
@@ -179,7 +180,7 @@ void draw_row(PanelContext& c, RowClicks& clicks, const LightRow& row, const std
     ImGui::TableNextColumn();
     draw_switches(c, row, scope);
     const std::optional<RowShare> share = reports.empty() ? std::nullopt : share_of(row, *c.frame->light_groups, reports);
-    for (double RowShare::*figure : {&RowShare::energy, &RowShare::noise}) {
+    for (std::optional<double> RowShare::*figure : {&RowShare::energy, &RowShare::noise}) {
         if (ImGui::TableNextColumn()) draw_share(c, share, figure);
     }
     ImGui::PopStyleColor();
