@@ -320,7 +320,7 @@ TEST(TextureTable, TexelsOfImagesThatStayAreTakenOver) {
         const ImagePtr image = make_byte_image(8, 8, 3, [&] { return value; });
         Material material;
         material.base_color_texture.texture = scene.textures.add({.name = "", .source = "", .image = image});
-        return add_worn_material(scene, material);
+        return add_used_material(scene, material);
     };
     const Id<Material> gone = add(1);
     add(2);

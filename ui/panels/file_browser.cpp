@@ -56,7 +56,7 @@ void take_typed(PanelContext& c) {
 void use_typed_folder(PanelContext& c) {
     const FileBrowser& b = *c.ui.browser;
     std::error_code unreadable;
-    const std::filesystem::path path = meant_path(b.typed, b.folder);
+    const std::filesystem::path path = absolute_path(b.typed, b.folder);
     std::filesystem::is_directory(path, unreadable) ? finish(c, path) : take_typed(c);
 }
 

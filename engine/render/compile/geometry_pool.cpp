@@ -155,18 +155,18 @@ void GeometryPool::reserve(const std::vector<SceneObject>& objects) {
     instances_.reserve(instances);
     instance_first_part_.reserve(instances);
     indices_ = with_room(indices, index_range_, index_base());
-    const auto make_room = [&](auto& array, Attribute attribute) {
+    const auto enlarge = [&](auto& array, Attribute attribute) {
         using T = std::decay_t<decltype(array)>::value_type;
         array = with_room(vertices, vertex_range_, attribute_base<T>(attribute));
     };
-    make_room(positions_, Attribute::positions);
+    enlarge(positions_, Attribute::positions);
     all_positions_ = base_of(positions_, reserved, Attribute::positions);
     all_indices_ = reserved ? index_base() : indices_.data();
-    if (has_normals_) make_room(normals_, Attribute::normals);
-    if (needs_.tangents) make_room(tangents_, Attribute::tangents);
-    if (needs_.colors) make_room(colors_, Attribute::colors);
+    if (has_normals_) enlarge(normals_, Attribute::normals);
+    if (needs_.tangents) enlarge(tangents_, Attribute::tangents);
+    if (needs_.colors) enlarge(colors_, Attribute::colors);
     for (size_t set = 0; set < needs_.uv_sets.size(); ++set)
-        if (needs_.uv_sets[set] >= 0) make_room(uv_[set], uv_attribute_of(needs_.uv_sets[set]));
+        if (needs_.uv_sets[set] >= 0) enlarge(uv_[set], uv_attribute_of(needs_.uv_sets[set]));
 }
 
 GeometryPool::Span GeometryPool::append(const Geometry& g) {

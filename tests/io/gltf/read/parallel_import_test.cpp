@@ -250,7 +250,7 @@ TEST(GltfParallel, JpegsAreFirstShownAtAnEighth) {
     ASSERT_TRUE(jpeg);
     const auto full = read_image(*jpeg, "ramp");
     ASSERT_TRUE(full);
-    GltfBuilder b = busy_file();
+    GltfBuilder b = large_file();
     const std::string bytes(jpeg->begin(), jpeg->end());
     const int image = b.add("images", {{"bufferView", b.buffer_view(bytes)}, {"mimeType", "image/jpeg"}});
     b.json["textures"][0]["source"] = image;
