@@ -120,29 +120,30 @@ template <class F> struct Texels {
     Mask<F> opaque; // three channels
 };
 
-// Texel `place` of bytes. Three are read together with the byte before them, so that nothing beyond the image is read.
-template <class F> Vec4T<F> byte_texel(const TextureTables& tables, const Texels<F>& texels, const Int<F>& place, const Mask<F>& is_srgb) {
+// Texel `place` of bytes in the active lanes. Three are read together with the byte before them, so that nothing beyond the image is read.
+template <class F> Vec4T<F> byte_texel(const TextureTables& tables, const Texels<F>& texels, const Int<F>& place, const Mask<F>& is_srgb,
+                                       const Mask<F>& active) {
     const Mask<F> with_byte_before = texels.opaque && as_mask(place > 0);
     const Int<F> offset = place * texels.channels - select(with_byte_before, Int<F>(1), Int<F>(0));
-    const UInt<F> word = gather_words(texels.first, to_unsigned(offset));
+    const UInt<F> word = gather_words(texels.first, to_unsigned(offset), active);
     const UInt<F> rgba = select(with_byte_before, UInt<F>(word >> 8), word);
     return decode_texel<F>(tables, select(texels.opaque, UInt<F>(rgba | 0xff000000u), rgba), is_srgb);
 }
 
-template <class F> Vec4T<F> half_texel(const Texels<F>& texels, const Int<F>& place) {
+template <class F> Vec4T<F> half_texel(const Texels<F>& texels, const Int<F>& place, const Mask<F>& active) {
     const Int<F> offset = place * texels.channels * 2;
     const Int<F> next = offset + select(texels.opaque, Int<F>(2), Int<F>(4)); // green and blue, or blue and alpha
-    const Int<F> rg = to_signed(gather_words(texels.first, to_unsigned(offset)));
-    const Int<F> last = to_signed(gather_words(texels.first, to_unsigned(next)));
+    const Int<F> rg = to_signed(gather_words(texels.first, to_unsigned(offset), active));
+    const Int<F> last = to_signed(gather_words(texels.first, to_unsigned(next), active));
     const F first = half_value<F>(Int<F>(last & 0x7fff)), second = half_value<F>(Int<F>((last >> 16) & 0x7fff));
     return {half_value<F>(Int<F>(rg & 0x7fff)), half_value<F>(Int<F>((rg >> 16) & 0x7fff)), select(texels.opaque, second, first),
             select(texels.opaque, F(1.f), second)};
 }
 
-template <class F> Vec4T<F> float_texel(const Texels<F>& texels, const Int<F>& place) {
+template <class F> Vec4T<F> float_texel(const Texels<F>& texels, const Int<F>& place, const Mask<F>& active) {
     const UInt<F> offset = to_unsigned(place) * to_unsigned(texels.channels) * 4u;
     const auto channel = [&](const UInt<F>& from) {
-        return float_from_bits(to_signed(gather_words(texels.first, UInt<F>(offset + from))));
+        return float_from_bits(to_signed(gather_words(texels.first, UInt<F>(offset + from), active)));
     };
     const F alpha = channel(select(texels.opaque, UInt<F>(0u), UInt<F>(12u)));
     return {channel(UInt<F>(0u)), channel(UInt<F>(4u)), channel(UInt<F>(8u)), select(texels.opaque, F(1.f), alpha)};
@@ -175,11 +176,10 @@ template <class F> [[gnu::noinline]] Vec4T<F> texture_level(const TextureTables&
     const Mask<F> is_bytes = reads && !is_float && !is_half, is_srgb = as_mask(encoding == encoding_srgb8);
     const auto texel = [&](const Int<F>& column, const Int<F>& row) {
         const Int<F> place = row * width + column;
-        const auto among = [&](const Mask<F>& lanes) { return select(lanes, place, Int<F>(0)); };
         Vec4T<F> c{F(1.f), F(1.f), F(1.f), F(1.f)};
-        if (any(is_bytes)) c = select(is_bytes, byte_texel<F>(tables, texels, among(is_bytes), is_srgb), c);
-        if (any(is_half)) c = select(is_half, half_texel<F>(texels, among(is_half)), c);
-        if (any(is_float)) c = select(is_float, float_texel<F>(texels, among(is_float)), c);
+        if (any(is_bytes)) c = select(is_bytes, byte_texel<F>(tables, texels, place, is_srgb, is_bytes), c);
+        if (any(is_half)) c = select(is_half, half_texel<F>(texels, place, is_half), c);
+        if (any(is_float)) c = select(is_float, float_texel<F>(texels, place, is_float), c);
         return c;
     };
     const Vec4T<F> top = lerp(texel(x.first, y.first), texel(x.second, y.first), x.weight);
