@@ -181,13 +181,15 @@ struct ImageDecoding::State {
         : context(c), images(c.model().images.size()), expected(images.size()), helpers(c.options.threads) {}
     ~State() { given_up = true; }
 
-    void find_previews() {
+    // Of JPEGs below `limit` bytes: a progressive one is held whole, as coefficients, at any size.
+    void find_previews(int64_t limit) {
         constexpr int64_t worth_it = int64_t(1) << 20; // bytes
         available.resize(files.size());
         file_of.assign(images.size(), files.size());
         for (size_t f = 0; f < files.size(); ++f) {
             for (const size_t i : files[f].images) file_of[i] = f;
-            if (!files[f].decoded && files[f].info.format == "jpeg" && files[f].info.bytes() > worth_it) previews.push_back(f);
+            if (!files[f].decoded && files[f].info.format == "jpeg" && files[f].info.bytes() > worth_it && files[f].info.bytes() <= limit)
+                previews.push_back(f);
         }
         if (!context.options.on_preview_scene) previews.clear();
     }
@@ -244,7 +246,6 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
     read_infos(context, state->files);
     report_wrong_formats(context, state->files);
     fit_into_memory(context, state->files);
-    state->find_previews();
     std::vector<int64_t> sizes;
     for (const Encoded& file : state->files) {
         sizes.push_back(file.info.bytes());
@@ -252,7 +253,9 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
     }
     // All but one thread take images below their share of the room, one takes larger ones, one by one.
     const unsigned threads = context.options.threads ? context.options.threads : std::max(1u, std::thread::hardware_concurrency());
-    state->helpers.begin(sizes, decoding_room(memory_limit().left) / threads, [s = state.get()](size_t i) { s->decode_one(i); });
+    const int64_t share = decoding_room(memory_limit().left) / threads;
+    state->find_previews(share);
+    state->helpers.begin(sizes, share, [s = state.get()](size_t i) { s->decode_one(i); });
     return ImageDecoding(std::move(state));
 }
 
