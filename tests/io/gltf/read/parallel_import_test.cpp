@@ -281,9 +281,9 @@ TEST(GltfParallel, JpegsAreFirstShownAtAnEighth) {
 }
 
 TEST(GltfParallel, ImagesThatAreDecodedTogetherHaveALimitedSize) {
-    EXPECT_EQ(decoding_room(uint64_t(4) << 30), int64_t(512) << 20);
-    EXPECT_EQ(decoding_room(0), int64_t(64) << 20);
-    EXPECT_EQ(decoding_room(uint64_t(1) << 50), int64_t(1) << 30);
+    EXPECT_EQ(concurrent_decode_bytes(uint64_t(4) << 30), int64_t(512) << 20);
+    EXPECT_EQ(concurrent_decode_bytes(0), int64_t(64) << 20);
+    EXPECT_EQ(concurrent_decode_bytes(uint64_t(1) << 50), int64_t(1) << 30);
 }
 
 TEST(GltfParallel, NoPreviewWithoutTextures) {

@@ -154,7 +154,9 @@ void read_infos(const GltfContext& context, std::vector<Encoded>& files) {
 
 } // namespace
 
-int64_t decoding_room(uint64_t memory_left) { return int64_t(std::clamp(memory_left / 8, uint64_t(64) << 20, uint64_t(1) << 30)); }
+int64_t concurrent_decode_bytes(uint64_t memory_left) {
+    return int64_t(std::clamp(memory_left / 8, uint64_t(64) << 20, uint64_t(1) << 30));
+}
 
 struct ImageDecoding::State {
     using Clock = std::chrono::steady_clock;
@@ -251,9 +253,9 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
         sizes.push_back(file.info.bytes());
         for (const size_t i : file.images) state->expected[i] = !file.decoded;
     }
-    // All but one thread take images below their share of the room, one takes larger ones, one by one.
+    // All but one thread take images below their share of the memory, one takes larger ones, one by one.
     const unsigned threads = context.options.threads ? context.options.threads : std::max(1u, std::thread::hardware_concurrency());
-    const int64_t share = decoding_room(memory_limit().left) / threads;
+    const int64_t share = concurrent_decode_bytes(memory_limit().left) / threads;
     state->find_previews(share);
     state->helpers.begin(sizes, share, [s = state.get()](size_t i) { s->decode_one(i); });
     return ImageDecoding(std::move(state));

@@ -12,13 +12,13 @@ namespace blush {
 
 // Decoded bytes of the images that may be decoded at the same time: an eighth of the memory that the process may still take, from
 // 64 MiB to 1 GiB. Decoders need up to twice as much.
-int64_t decoding_room(uint64_t memory_left);
+int64_t concurrent_decode_bytes(uint64_t memory_left);
 
 class ImageDecoding {
 public:
     // Reads the headers of the images `wanted` (negative indices are skipped) and starts decoding. Images with identical bytes
     // are decoded once. If the total would exceed ImportOptions::texture_bytes, the largest are halved until it fits, with a
-    // warning each. Grey images become RGB. Images being decoded at the same time have at most decoding_room() bytes together, or
+    // warning each. Grey images become RGB. Images being decoded at the same time have at most concurrent_decode_bytes() bytes together, or
     // the largest one more. With ImportOptions::on_preview_scene, large JPEGs are first decoded at an eighth of their size. The
     // context must outlive this object. Errors: a buffer view that does not exist.
     static Result<ImageDecoding> begin(const GltfContext& context, std::span<const int> wanted);
