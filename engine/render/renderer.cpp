@@ -13,6 +13,8 @@
 #include "render/film/reuse_pilot.h"
 #include "render/film/sample_allocation.h"
 #include "render/film/shadow_catcher.h"
+#include "render/film/visibility_choice.h"
+#include "render/film/visibility_pilot.h"
 #include "render/integrator/irradiance.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
@@ -53,7 +55,8 @@ struct Renderer::State {
     Film film;
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
-    ReuseChoice reuse;                                 // of the scene and settings
+    ReuseChoice reuse; // of the scene and settings, like the next
+    VisibilityChoice visibility;
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
@@ -74,6 +77,13 @@ struct Renderer::State {
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
+    // Without its seed.
+    KernelContext context_for(const SceneTables& tables) const {
+        KernelContext context{&tables, &scene.accel(), kernel_settings(settings, film_width(), film_height())};
+        context.settings.filter_textures = options.filter_textures;
+        return context;
+    }
+    bool decide(const std::function<bool()>& wanted);
     int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(sample) : reuse.first_group_size(); }
 
     FilmSize full_film() const {
@@ -169,6 +179,7 @@ bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, Lig
 void Renderer::State::begin_film(Clock::time_point begun) {
     clear();
     reuse = ReuseChoice(settings, scene);
+    visibility = VisibilityChoice(settings, scene);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -194,7 +205,10 @@ void Renderer::begin_image(const Scene& scene, const RenderSettings& settings, L
 void Renderer::set_mix(const Mixing& mixing) { state_->set_mix(mixing); }
 
 void Renderer::select_lights_by_mix() {
-    if (state_->groups) state_->scene.aim(state_->mixing.gains);
+    State& s = *state_;
+    if (!s.groups) return;
+    s.scene.aim(s.mixing.gains);
+    s.visibility = VisibilityChoice(s.settings, s.scene);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -235,6 +249,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
     if (!s.feature_report) {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
         feature_report.push_back(s.reuse.report());
+        feature_report.push_back(s.visibility.report());
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;
@@ -252,8 +267,9 @@ ReuseCovariance Renderer::reuse_covariance() {
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
-    KernelContext context{&scene.tables(), &scene.accel(), kernel_settings(settings, film.width(), film.height()), settings.seed};
-    context.settings.filter_textures = options.filter_textures;
+    const SceneTables tables = visibility.tables(scene.tables(), divider == 1 ? run.first : 0);
+    KernelContext context = context_for(tables);
+    context.seed = settings.seed;
     context.settings.reuse = run.groups;
     TileScratch& tile = scratch_of(worker);
     const Film::Diagnose diagnose = [&](int x, int y, int64_t sample) {
@@ -361,17 +377,31 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
     });
 }
 
-bool Renderer::decide(const std::function<bool()>& wanted) {
-    State& s = *state_;
-    if (!s.reuse.needs_pilot()) return true;
-    KernelContext context{&s.scene.tables(), &s.scene.accel(), kernel_settings(s.settings, s.settings.width, s.settings.height)};
-    context.settings.filter_textures = s.options.filter_textures;
-    const auto measured = measure_path_reuse(context, *s.kernel, s.workers, s.replays, wanted);
-    if (!measured) return false;
-    s.reuse.decide(*measured);
-    s.feature_report.reset();
+bool Renderer::State::decide(const std::function<bool()>& wanted) {
+    const auto pilot_context = [&](const SceneTables& tables) {
+        KernelContext context = context_for(tables);
+        context.settings.width = float(settings.width);
+        context.settings.height = float(settings.height);
+        return context;
+    };
+    if (visibility.needs_pilot()) {
+        auto learned = learn_light_visibility(pilot_context(scene.tables()), *kernel, workers, replays, wanted);
+        if (!learned) return false;
+        visibility.decide(*std::move(learned));
+        feature_report.reset();
+    }
+    // Measures the samples as they will be rendered.
+    if (reuse.needs_pilot()) {
+        const SceneTables tables = visibility.tables(scene.tables(), 1);
+        const auto measured = measure_path_reuse(pilot_context(tables), *kernel, workers, replays, wanted);
+        if (!measured) return false;
+        reuse.decide(*measured);
+        feature_report.reset();
+    }
     return true;
 }
+
+bool Renderer::decide(const std::function<bool()>& wanted) { return state_->decide(wanted); }
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
@@ -381,9 +411,9 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     for (int64_t done = 0; done < count;) {
         const int64_t next = begin + done;
         int64_t step = count - done;
-        // Ends where the pilot of adaptive sampling is measured, and where path reuse changes.
+        // Ends where the pilot of adaptive sampling is measured, and where the pilots' decisions apply.
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
-        if (next == 0 && s.reuse_group_size(0) != s.reuse_group_size(1)) step = 1;
+        if (next == 0 && s.divider == 1 && (s.visibility.pays() || s.reuse_group_size(0) != s.reuse_group_size(1))) step = 1;
         const bool planned = s.settings.adaptive && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
         s.samples += step;

@@ -19,15 +19,19 @@ template <class F> void find_root_importances(const LightTree& tree, const TreeR
         root.of[k] = c.value;
         root.like[k] = c.like;
         root.afar[k] = c.afar;
-        near = near + c.value;
     }
-    root.sum = near;
-    if (tree.distant_count == 0) return;
     F* const of_distant = root.of + tree.root_count;
     for (int k = 0; k < tree.distant_count; ++k) {
         const DistantLight& light = tree.distant[k];
         const F cosine = dot(to.normal, splat<F>(light.direction)) + F(light.sin_angle);
         of_distant[k] = light.power * select(to.all_sides, F(1.f), min(max(cosine, F(0.f)), F(1.f)));
+    }
+    if (tree.visibility.factors)
+        apply_visibility<F>(tree.visibility, to.position, to.normal, root.of, tree.root_count + tree.distant_count);
+    for (int k = 0; k < tree.root_count; ++k) near = near + root.of[k];
+    root.sum = near;
+    if (tree.distant_count == 0) return;
+    for (int k = 0; k < tree.distant_count; ++k) {
         distant = distant + of_distant[k];
         groups = groups + select(of_distant[k] > F(0.f), F(1.f), F(0.f));
     }

@@ -15,6 +15,7 @@
 
 #include "core/block.h"
 #include "core/sampler.h"
+#include "shading/light_visibility.h"
 
 #include <cstdint>
 
@@ -76,6 +77,7 @@ struct LightTree {
     const int32_t* root_lights = nullptr; // by child of the root: its light; -1: a node or a mesh
     const DistantLight* distant = nullptr;
     int32_t root_count = 0, distant_count = 0; // of the root's children, which is 0 without nodes
+    LightVisibilityGrid visibility;
 
     bool empty() const { return root_count + distant_count == 0; }
 };

@@ -4,6 +4,8 @@
 #include "render/compile/expanded_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
+#include "render/film/visibility_choice.h"
+#include "render/film/visibility_pilot.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/renderer.h"
@@ -12,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <vector>
 
 namespace blush {
 namespace {
@@ -96,16 +99,22 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     const Scene expanded = expand_area_lights(scene);
     RenderScene compiled;
     compiled.update(expanded, settings, full_plan(), workers);
-    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height),
-                                settings.seed};
+    KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height), settings.seed};
+    std::vector<std::unique_ptr<TileScratch>> scratches(1);
+    VisibilityChoice visibility(settings, compiled);
+    if (sample > 0 && visibility.needs_pilot())
+        visibility.decide(*learn_light_visibility(context, choose_kernel(compiled.features()), workers, scratches, {}));
+    const SceneTables tables = visibility.tables(compiled.tables(), sample);
+    context.scene = &tables;
     Logger log{expanded, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 
     // Limits the length of the log; long paths repeat themselves.
     constexpr int max_log_vertices = 1000;
-    const auto scratch = std::make_unique<TileScratch>();
+    if (!scratches[0]) scratches[0] = std::make_unique<TileScratch>();
+    TileScratch& scratch = *scratches[0];
     workers.run([&] {
-        const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, *scratch, [&](const ReplayedVertex& vertex) {
+        const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, scratch, [&](const ReplayedVertex& vertex) {
             log.vertex(vertex.bounce, vertex.path, vertex.hit);
             log.outcome(vertex.bounce, vertex.step, vertex.arrived);
             return true;
@@ -118,7 +127,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
                      settings.reuse);
         log.line("radiance {}", rgb(radiance));
         if (!is_valid_radiance(radiance)) {
-            const Fault fault = find_fault(context, x, y, sample, *scratch);
+            const Fault fault = find_fault(context, x, y, sample, scratch);
             log.line("refused    {} at {}, vertex {}", to_string(fault.kind), to_string(fault.place), fault.vertex);
         }
     });

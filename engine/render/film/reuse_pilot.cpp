@@ -1,53 +1,26 @@
 #include "render/film/reuse_pilot.h"
 
 #include "render/bvh/small_scene.h"
+#include "render/film/pilot_tiles.h"
 #include "render/film/reuse_choice.h"
 #include "render/integrator/reuse_groups.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace blush {
 namespace {
 
-constexpr uint32_t pilot_seed = 0x9110737e;  // any; it only has to differ from those of images
-constexpr int tile_side = 8;                 // small, so that there are many; a whole block of groups
-constexpr int samples = 8;                   // of each pixel, both halves together
-constexpr int min_tiles = 8, max_tiles = 64; // of the pilot, if the film has as many;
-constexpr int film_tiles_per_tile = 16;      // between these, one for so many tiles of the film
-constexpr double dark_squared = 0.01;        // as in relmse
+constexpr uint32_t pilot_seed = 0x9110737e; // any; it only has to differ from those of images
+constexpr double dark_squared = 0.01;       // as in relmse
 
 // Usual time of parts of the work, relative to a camera or bounce ray with its shading, of 0.1 us: from the profiles by stage of the
 // shipped scenes (stage_times.h).
 constexpr double shadow_ray_cost = 0.3, connection_cost = 0.25;
 constexpr double sharing_cost = 0.08;     // per camera path
 constexpr double small_scene_cost = 0.65; // factor on paths where no BVH is needed (small_scene.h)
-
-// Tiles spread over the film by the R2 sequence (Roberts 2018), whatever its aspect ratio.
-std::vector<TileJob> pilot_tiles(int width, int height) {
-    const int across = (width + tile_side - 1) / tile_side, down = (height + tile_side - 1) / tile_side, all = across * down;
-    const size_t count = size_t(std::min(all, std::clamp(all / film_tiles_per_tile, min_tiles, max_tiles)));
-    const auto along = [](int k, double step, int tiles) {
-        const double x = 0.5 + k * step;
-        return std::min(int((x - std::floor(x)) * tiles), tiles - 1);
-    };
-    std::set<std::pair<int, int>> places;
-    for (int k = 0; places.size() < count; ++k) places.emplace(along(k, 0.5698402909980532, down), along(k, 0.7548776662466927, across));
-    std::vector<TileJob> tiles;
-    for (const auto& [row, column] : places) {
-        const int x = column * tile_side, y = row * tile_side;
-        tiles.push_back({.x = x,
-                         .y = y,
-                         .width = std::min(tile_side, width - x),
-                         .height = std::min(tile_side, height - y),
-                         .first_sample = 0,
-                         .samples = samples});
-    }
-    return tiles;
-}
 
 // A tile rendered in one way.
 struct Variant {
@@ -66,8 +39,8 @@ Variant render_variant(const KernelContext& context, const Kernel& kernel, const
     for (int slot = 0; slot < tile.paths(); ++slot) {
         const Vec3d radiance{scratch.r[slot], scratch.g[slot], scratch.b[slot]};
         const bool valid = std::isfinite(radiance.x + radiance.y + radiance.z);
-        Vec3d& mean = v.means[2 * size_t(slot / samples) + size_t(slot % 2)];
-        if (valid) mean = mean + radiance * (2.0 / samples);
+        Vec3d& mean = v.means[2 * size_t(slot / pilot_samples) + size_t(slot % 2)];
+        if (valid) mean = mean + radiance * (2.0 / pilot_samples);
     }
     return v;
 }
@@ -144,7 +117,8 @@ std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, con
     apart.seed = pilot_seed;
     apart.settings.reuse = {};
     std::vector<KernelContext> sizes(automatic_group_sizes.size(), apart);
-    for (size_t k = 0; k < sizes.size(); ++k) sizes[k].settings.reuse = reuse_groups(automatic_group_sizes[k], tile_side, tile_side);
+    for (size_t k = 0; k < sizes.size(); ++k)
+        sizes[k].settings.reuse = reuse_groups(automatic_group_sizes[k], pilot_tile_side, pilot_tile_side);
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
     const double ray_cost = context.accel->small_scene() ? small_scene_cost : 1;
     std::vector<Comparison> measured(tiles.size());

@@ -99,12 +99,27 @@ inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue&
             other_ray_mask, context.scene->links.lit_sets ? q.mask.data : nullptr};
 }
 
+// Records the shadow rays of these lanes; call before they are appended to the queue.
+template <class F> void record_trials(TileScratch& scratch, const Step<F>& s, const Mask<F>& lanes) {
+    std::vector<ShadowTrial>& trials = *scratch.trials;
+    int k = scratch.shadows.size;
+    for_each_lane(bits(lanes), [&](int i) {
+        scratch.shadows.trial[k++] = int32_t(trials.size());
+        const Vec<F>&at = s.shadow.origin, &normal = s.next.normal;
+        trials.push_back({{lane(at.x, i), lane(at.y, i), lane(at.z, i)},
+                          {lane(normal.x, i), lane(normal.y, i), lane(normal.z, i)},
+                          lane(s.light, i),
+                          false});
+    });
+}
+
 // Adds the light of unoccluded shadow ray k.
 inline void add_shadow_light(TileScratch& scratch, const ShadowQueue& q, int k) {
     const int slot = q.slot[k];
     scratch.r[slot] += double(q.r[k]);
     scratch.g[slot] += double(q.g[k]);
     scratch.b[slot] += double(q.b[k]);
+    if (scratch.trials) (*scratch.trials)[size_t(q.trial[k])].arrived = true;
     if (scratch.groups) scratch.groups->add(q.group[k], slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
 }
 

@@ -209,6 +209,7 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     const unsigned b = bits(goes_on);
     if (context.accel->has_alpha()) compress(q.random + q.size, load<UInt<F>>(q.random + k), b);
     if (scratch.groups) compress(q.group + q.size, load<Int<F>>(q.group + k), b);
+    if (scratch.trials) compress(q.trial + q.size, load<Int<F>>(q.trial + k), b);
     if (context.scene->links.lit_sets) compress(q.mask + q.size, load<UInt<F>>(q.mask + k), b);
     append<F>(q, s, slot, goes_on);
 }

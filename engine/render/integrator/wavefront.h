@@ -152,6 +152,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             if constexpr (S.has(Feature::links))
                 if (context.scene->links.lit_sets)
                     compress(scratch.shadows.mask + scratch.shadows.size, step.shadow_mask, bits(step.connects));
+            if (scratch.trials) record_trials<F>(scratch, step, step.connects);
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));

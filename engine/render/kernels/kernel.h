@@ -10,6 +10,7 @@
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
+#include "render/lights/shadow_trial.h"
 #include "shading/features.h"
 
 #include <cstdint>
@@ -52,6 +53,7 @@ struct ShadowQueue {
     Column<uint32_t> random; // for stochastic opacity; written only if some material is not opaque
     Column<int32_t> group;   // light group; written only with a light mix
     Column<uint32_t> mask;   // ray mask; written only if lights are linked
+    Column<int32_t> trial;   // index of TileScratch::trials; written only if they are recorded
 };
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
@@ -87,13 +89,14 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<double> r, g, b;                    // radiance; single precision would lose a long path's last terms
-    std::unique_ptr<FirstHitColumns> first;    // null: not needed
-    std::unique_ptr<BounceColumns> bounces;    // null: not needed
-    std::unique_ptr<GroupColumns> groups;      // null: no light mix
-    std::unique_ptr<ReuseColumns> reuse;       // allocated by the first kernel with path reuse
-    std::unique_ptr<RouletteColumns> roulette; // null: not needed
-    std::unique_ptr<PaneColumns> panes;        // allocated by the first kernel with panes
+    Column<double> r, g, b;                           // radiance; single precision would lose a long path's last terms
+    std::unique_ptr<FirstHitColumns> first;           // null: not needed
+    std::unique_ptr<BounceColumns> bounces;           // null: not needed
+    std::unique_ptr<GroupColumns> groups;             // null: no light mix
+    std::unique_ptr<ReuseColumns> reuse;              // allocated by the first kernel with path reuse
+    std::unique_ptr<RouletteColumns> roulette;        // null: not needed
+    std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes
+    std::unique_ptr<std::vector<ShadowTrial>> trials; // of the tile's shadow rays, accumulated; null: not recorded
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

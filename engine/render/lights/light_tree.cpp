@@ -369,7 +369,7 @@ void LightTreeTable::find_root_lights() {
 }
 
 LightTree LightTreeTable::tables() const {
-    return {nodes.data(), entries.data(), root_lights.data(), distant.data(), int32_t(root_lights.size()), int32_t(distant.size())};
+    return {nodes.data(), entries.data(), root_lights.data(), distant.data(), int32_t(root_lights.size()), int32_t(distant.size()), {}};
 }
 
 size_t LightTreeTable::memory_bytes() const {

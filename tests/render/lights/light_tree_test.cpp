@@ -2,6 +2,7 @@
 #include "core/math.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/lights/light_visibility.h"
 #include "shading/light.h"
 #include "tests/render/irradiance.h"
 #include "tests/render/rendered_image.h"
@@ -103,9 +104,7 @@ TEST(LightTree, IsNotBuiltOfLightsWithoutPower) {
     EXPECT_TRUE(shows_on_floor(scene, [](const Vec3d&) { return 2 * std::sqrt(0.5); }));
 }
 
-void expect_stated_probabilities(const Scene& scene) {
-    const Compiled compiled(scene);
-    const LightTables& t = compiled.lights();
+void expect_stated_probabilities(const LightTables& t) {
     Random random;
     constexpr int receivers = 4;
     for (int r = 0; r < receivers; ++r) {
@@ -136,8 +135,31 @@ void expect_stated_probabilities(const Scene& scene) {
     }
 }
 
+void expect_stated_probabilities(const Scene& scene) {
+    const Compiled compiled(scene);
+    expect_stated_probabilities(compiled.lights());
+}
+
 TEST(LightTree, SamplesManyLightsWithTheStatedProbability) { expect_stated_probabilities(varied_sky(mixed_scene(60))); }
 TEST(LightTree, SamplesFewLightsWithTheStatedProbability) { expect_stated_probabilities(varied_sky(mixed_scene(4))); }
+// Each cell, side and group with another visibility.
+TEST(LightTree, SamplesByLearnedVisibilityWithTheStatedProbability) {
+    for (const int count : {4, 60}) {
+        const Compiled compiled(varied_sky(mixed_scene(count)));
+        LightTables lights = compiled.lights();
+        Random random;
+        std::vector<ShadowTrial> trials;
+        for (int i = 0; i < 20'000; ++i)
+            trials.push_back({{random(-4, 4), random(0, 3), random(-4, 4)},
+                              random.direction(),
+                              int32_t(random.bits() % uint32_t(lights.count)),
+                              random(0, 1) < 0.3f});
+        const LightVisibility learned(trials, lights);
+        lights.tree.visibility = learned.grid();
+        ASSERT_TRUE(lights.tree.visibility.factors);
+        expect_stated_probabilities(lights);
+    }
+}
 // More suns than the root of the tree takes.
 TEST(LightTree, SamplesManySunsWithTheStatedProbability) {
     Scene scene = varied_sky(mixed_scene(3));

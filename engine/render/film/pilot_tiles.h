@@ -1,0 +1,16 @@
+// The part of the image that pilots render: small tiles, spread over the film.
+#pragma once
+
+#include "render/kernels/kernel.h"
+
+#include <vector>
+
+namespace blush {
+
+constexpr int pilot_tile_side = 8; // small, so that there are many; a whole block of path reuse groups
+constexpr int pilot_samples = 8;   // of each pixel, both halves together
+
+// At most 64 tiles for a film of this size, spread by the R2 sequence (Roberts 2018), whatever its aspect ratio.
+std::vector<TileJob> pilot_tiles(int width, int height);
+
+} // namespace blush

@@ -1,0 +1,34 @@
+#include "render/film/visibility_pilot.h"
+
+#include "render/film/pilot_tiles.h"
+
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr uint32_t visibility_pilot_seed = 0x51b11e0d; // any; it only has to differ from those of images and of the other pilot
+
+} // namespace
+
+std::optional<LightVisibility> learn_light_visibility(KernelContext context, const Kernel& kernel, const Workers& workers,
+                                                      std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                                      const std::function<bool()>& wanted) {
+    context.seed = visibility_pilot_seed;
+    context.settings.reuse = {};
+    const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
+    std::vector<std::vector<ShadowTrial>> of_tile(tiles.size());
+    const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
+        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+        TileScratch& tile = *scratch[worker];
+        tile.trials = std::make_unique<std::vector<ShadowTrial>>();
+        kernel.render(context, tiles[size_t(i)], tile);
+        of_tile[size_t(i)] = std::move(*std::exchange(tile.trials, nullptr));
+    });
+    if (!all) return std::nullopt;
+    std::vector<ShadowTrial> trials;
+    for (const auto& some : of_tile) trials.insert(trials.end(), some.begin(), some.end());
+    return LightVisibility(trials, context.scene->lights);
+}
+
+} // namespace blush

@@ -1,0 +1,120 @@
+#include "render/lights/light_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace blush {
+namespace {
+
+constexpr double outermost = 0.01;     // share of the trials beyond each face of the grid
+constexpr double phase = 0.3819660113; // of the grid in cells: surfaces at round coordinates must not lie between two cells
+constexpr int block = 4;               // cells along a block
+constexpr double prior_trials = 4;     // weight of the coarser estimate
+
+// Rays towards one group: a child of the root or a distant light.
+struct Count {
+    uint32_t tried = 0, arrived = 0;
+    void add(bool has_arrived) {
+        ++tried;
+        arrived += has_arrived;
+    }
+    double visibility(double prior) const { return (arrived + prior_trials * prior) / (tried + prior_trials); }
+};
+
+// Group of each record; -1: the tree never selects it.
+int group_of(const LightTables& lights, int32_t light) {
+    const int32_t slot = lights.lights[light].slot;
+    if (slot >= 0) return lights.tree.root_count + (lights.slot_count > 0 ? 0 : slot);
+    const uint32_t trail = lights.tree.entries[~slot].trail;
+    return trail == no_trail ? -1 : int(trail & (max_tree_children - 1));
+}
+
+bool is_usable(const ShadowTrial& t) { return std::isfinite(t.position.x + t.position.y + t.position.z); }
+
+// Leaves `factors` null.
+LightVisibilityGrid grid_over(std::span<const ShadowTrial> trials, int groups) {
+    LightVisibilityGrid grid;
+    std::array<float, 3> low, extent;
+    std::vector<float> along;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        along.clear();
+        for (const ShadowTrial& t : trials)
+            if (is_usable(t)) along.push_back(axis == 0 ? t.position.x : axis == 1 ? t.position.y : t.position.z);
+        if (along.empty()) return grid;
+        const auto quantile = [&](double share) {
+            const auto at = along.begin() + std::ptrdiff_t(share * double(along.size() - 1));
+            std::ranges::nth_element(along, at);
+            return *at;
+        };
+        low[axis] = quantile(outermost);
+        extent[axis] = quantile(1 - outermost) - low[axis];
+    }
+    const float longest = std::ranges::max(extent), size = longest / LightVisibility::cells_along_longest;
+    grid.cells_per_metre = 1 / size;
+    if (!(size > 0) || !std::isfinite(grid.cells_per_metre)) return {};
+    grid.words = (groups + visibility_word_lights - 1) / visibility_word_lights;
+    const float before = float(phase) * size;
+    grid.low = {low[0] - before, low[1] - before, low[2] - before};
+    for (size_t axis = 0; axis < 3; ++axis) grid.cells[axis] = int(extent[axis] * grid.cells_per_metre + float(phase)) + 1;
+    return grid;
+}
+
+} // namespace
+
+LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const LightTables& lights) {
+    const int groups = lights.tree.root_count + lights.tree.distant_count;
+    const auto g = size_t(groups);
+    shape_ = grid_over(trials, groups);
+    if (shape_.words == 0) return;
+    const size_t cells = size_t(shape_.cells[0]) * size_t(shape_.cells[1]) * size_t(shape_.cells[2]), rows = cells * visibility_sides;
+    const auto blocks = [&](size_t axis) { return size_t((shape_.cells[axis] + block - 1) / block); };
+    const auto block_of = [&](size_t cell) {
+        const size_t x = cell % size_t(shape_.cells[0]), y = cell / size_t(shape_.cells[0]) % size_t(shape_.cells[1]),
+                     z = cell / (size_t(shape_.cells[0]) * size_t(shape_.cells[1]));
+        return (z / block * blocks(1) + y / block) * blocks(0) + x / block;
+    };
+    std::vector<Count> of_scene(g), of_block(blocks(0) * blocks(1) * blocks(2) * g), of_cell(cells * g), of_row(rows * g);
+    for (const ShadowTrial& t : trials) {
+        const int group = is_usable(t) ? group_of(lights, t.light) : -1;
+        if (group < 0) continue;
+        const size_t row = size_t(visibility_row<float>(shape_, t.position, t.normal)) / size_t(shape_.words),
+                     cell = row / visibility_sides;
+        of_scene[size_t(group)].add(t.arrived);
+        of_block[block_of(cell) * g + size_t(group)].add(t.arrived);
+        of_cell[cell * g + size_t(group)].add(t.arrived);
+        of_row[row * g + size_t(group)].add(t.arrived);
+    }
+
+    factors_.assign(rows * size_t(shape_.words), 0);
+    double log_ratios = 0, weights = 0;
+    for (size_t row = 0; row < rows; ++row) {
+        const size_t cell = row / visibility_sides, in_block = block_of(cell);
+        // The importances of the row's receivers, up to a factor, are the trials' shares: lights were selected in proportion to them.
+        double sum = 0, sum_visible = 0, sum_root = 0;
+        for (size_t k = 0; k < g; ++k) {
+            const double coarse = of_block[in_block * g + k].visibility(of_scene[k].visibility(1));
+            const double visibility = of_row[row * g + k].visibility(of_cell[cell * g + k].visibility(coarse));
+            const double factor = std::max(std::sqrt(visibility), least_factor);
+            const auto byte = uint32_t(std::min(std::lround(factor * 256), 255L));
+            factors_[row * size_t(shape_.words) + k / visibility_word_lights] |= byte << (8 * (k % visibility_word_lights));
+            const double tried = of_row[row * g + k].tried;
+            sum += tried;
+            sum_visible += tried * visibility;
+            sum_root += tried * std::sqrt(visibility);
+        }
+        const bool lit = std::any_of(&of_row[row * g], &of_row[row * g] + g, [](const Count& c) { return c.arrived > 0; });
+        if (!lit) continue;
+        log_ratios += sum * std::log(sum_root * sum_root / (sum * sum_visible));
+        weights += sum;
+    }
+    if (weights > 0) second_moment_ = std::exp(log_ratios / weights);
+}
+
+LightVisibilityGrid LightVisibility::grid() const {
+    LightVisibilityGrid grid = shape_;
+    grid.factors = factors_.empty() ? nullptr : factors_.data();
+    return grid;
+}
+
+} // namespace blush

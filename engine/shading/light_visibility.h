@@ -1,0 +1,58 @@
+// Learned visibility: how often the shadow rays from a region of the scene reach each child of the light tree's root and each distant
+// light. A grid over the receivers holds it, with a row for each cell and each of six sides of a surface: two sides of a wall are lit
+// by different lights. Related: Guo et al. 2020, "Next Event Estimation++: Visibility Mapping for Efficient Light Transport Simulation".
+#pragma once
+
+#include "core/lanes.h"
+#include "core/vec.h"
+
+#include <cstdint>
+
+namespace blush {
+
+constexpr int visibility_sides = 6;       // of a normal: its largest component and the sign of that
+constexpr int visibility_word_lights = 4; // factors in a word, one byte each
+
+struct LightVisibilityGrid {
+    const uint32_t* factors = nullptr; // rows of `words`: by cell, x fastest, and side; null: nothing has been learned
+    int32_t words = 0;                 // of a row: child k of the root has byte k, distant light k byte root_count + k
+    int32_t cells[3] = {1, 1, 1};
+    Vec3 low{0, 0, 0}; // corner of the grid; receivers outside take the nearest cell
+    float cells_per_metre = 0;
+
+    bool operator==(const LightVisibilityGrid&) const = default;
+};
+
+} // namespace blush
+
+namespace blush::inline BLUSH_ISA {
+
+// First word of the receiver's row. A zero normal has a side, too.
+template <class F> Int<F> visibility_row(const LightVisibilityGrid& grid, const Vec<F>& position, const Vec<F>& normal) {
+    // The order of min and max maps NaN to cell 0.
+    const auto cell = [&](const F& x, float low, int32_t cells) {
+        return to_int(min(max(F((x - low) * grid.cells_per_metre), F(0.f)), F(float(cells - 1))));
+    };
+    const Int<F> x = cell(position.x, grid.low.x, grid.cells[0]), y = cell(position.y, grid.low.y, grid.cells[1]),
+                 z = cell(position.z, grid.low.z, grid.cells[2]);
+    const Vec<F> along = abs(normal);
+    const Mask<F> is_x = along.x >= along.y && along.x >= along.z, is_y = along.y >= along.z;
+    const F component = select(is_x, normal.x, select(is_y, normal.y, normal.z));
+    const Int<F> axis = select(is_x, Int<F>(0), select(is_y, Int<F>(2), Int<F>(4)));
+    const Int<F> side = select(component < F(0.f), Int<F>(axis + 1), axis);
+    return (((z * grid.cells[1] + y) * grid.cells[0] + x) * visibility_sides + side) * grid.words;
+}
+
+// Multiplies the importances of[0..count) by the factors of the receiver's row.
+template <class F> void apply_visibility(const LightVisibilityGrid& grid, const Vec<F>& position, const Vec<F>& normal, F* of, int count) {
+    const Int<F> row = visibility_row<F>(grid, position, normal);
+    for (int word = 0; word * visibility_word_lights < count; ++word) {
+        const UInt<F> four = gather(grid.factors + word, row);
+        for (int k = 0; k < visibility_word_lights && word * visibility_word_lights + k < count; ++k) {
+            F& importance = of[word * visibility_word_lights + k];
+            importance = importance * (to_float(to_signed(UInt<F>((four >> (8 * k)) & 255u))) * (1.f / 256));
+        }
+    }
+}
+
+} // namespace blush::inline BLUSH_ISA
