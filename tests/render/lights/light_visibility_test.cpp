@@ -144,7 +144,7 @@ TEST(LightVisibility, LearnsNothingFromNothing) {
     }
     // Some lost receivers do not spoil the others, and have a row.
     std::vector<ShadowTrial> some = trials([](const Vec3& p, const Vec3&, int32_t) { return p.x > 0; });
-    some.insert(some.end(), lost.begin(), lost.end());
+    for (size_t i = 0; i < some.size(); i += 3) some[i].position.x = nan;
     const LightVisibility learned(some, lights);
     ASSERT_TRUE(learned.grid().factors);
     EXPECT_GE((visibility_row<float>(learned.grid(), {nan, nan, nan}, {nan, nan, nan})), 0);
