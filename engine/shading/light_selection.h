@@ -7,6 +7,7 @@
 namespace blush::inline BLUSH_ISA {
 
 // Importances of the root's children, then of the distant lights.
+static_assert(max_tree_children + max_distant_lights <= max_visibility_lights);
 template <class F> struct RootImportances {
     F of[max_tree_children + max_distant_lights];
     Mask<F> like[max_tree_children], afar[max_tree_children]; // of the root's children

@@ -10,8 +10,12 @@
 
 namespace blush {
 
+// The share of samples that are distributed without learned visibility (defensive mixture, Hesterberg 1995): so no receiver has more than
+// the inverse of it times the variance that it has without.
+constexpr float unlearned_share = 1.f / 16;
 constexpr int visibility_sides = 6;       // of a normal: its largest component and the sign of that
-constexpr int visibility_word_lights = 4; // factors in a word, one byte each
+constexpr int visibility_word_lights = 4; // factors in a word, one byte each, at least 1
+constexpr int max_visibility_lights = 32;
 
 struct LightVisibilityGrid {
     const uint32_t* factors = nullptr; // rows of `words`: by cell, x fastest, and side; null: nothing has been learned
@@ -43,16 +47,21 @@ template <class F> Int<F> visibility_row(const LightVisibilityGrid& grid, const 
     return (((z * grid.cells[1] + y) * grid.cells[0] + x) * visibility_sides + side) * grid.words;
 }
 
-// Multiplies the importances of[0..count) by the factors of the receiver's row.
+// Multiplies the importances of[0..count) by the factors of the receiver's row, and mixes them with the importances as they were.
 template <class F> void apply_visibility(const LightVisibilityGrid& grid, const Vec<F>& position, const Vec<F>& normal, F* of, int count) {
     const Int<F> row = visibility_row<F>(grid, position, normal);
+    F factors[max_visibility_lights], unlearned = F(0.f), learned = F(0.f);
     for (int word = 0; word * visibility_word_lights < count; ++word) {
         const UInt<F> four = gather(grid.factors + word, row);
         for (int k = 0; k < visibility_word_lights && word * visibility_word_lights + k < count; ++k) {
-            F& importance = of[word * visibility_word_lights + k];
-            importance = importance * (to_float(to_signed(UInt<F>((four >> (8 * k)) & 255u))) * (1.f / 256));
+            const int light = word * visibility_word_lights + k;
+            factors[light] = to_float(to_signed(UInt<F>((four >> (8 * k)) & 255u))) * (1.f / 255);
+            unlearned = unlearned + of[light];
+            learned = learned + of[light] * factors[light];
         }
     }
+    const F share = (1.f - unlearned_share) * unlearned / select(learned > F(0.f), learned, F(1.f));
+    for (int light = 0; light < count; ++light) of[light] = of[light] * (factors[light] * share + unlearned_share);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -95,8 +95,7 @@ LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const Ligh
         for (size_t k = 0; k < g; ++k) {
             const double coarse = of_block[in_block * g + k].visibility(of_scene[k].visibility(1));
             const double visibility = of_row[row * g + k].visibility(of_cell[cell * g + k].visibility(coarse));
-            const double factor = std::max(std::sqrt(visibility), least_factor);
-            const auto byte = uint32_t(std::min(std::lround(factor * 256), 255L));
+            const auto byte = uint32_t(std::max(std::lround(std::sqrt(visibility) * 255), 1L));
             factors_[row * size_t(shape_.words) + k / visibility_word_lights] |= byte << (8 * (k % visibility_word_lights));
             const double tried = of_row[row * g + k].tried;
             sum += tried;

@@ -13,8 +13,8 @@ namespace blush {
 // Factors on the importances of the light tree's root (shading/light_visibility.h), from the trials of a pilot.
 //
 // One sample that selects light k with probability p_k and estimates e_k V_k / p_k, where e_k is the importance and V_k is 1 with
-// probability v_k and else 0, has the least variance with p_k proportional to e_k sqrt(v_k). So the factor is sqrt(v_k). It is never
-// less than least_factor: a light that no trial saw may still reach some point of the cell, and must be sampled there.
+// probability v_k and else 0, has the least variance with p_k proportional to e_k sqrt(v_k). So the factor is sqrt(v_k). A light that no
+// trial saw may still reach some point of the cell: unlearned_share of the samples take no account of the factors.
 //
 // v_k is estimated by the share of arrived rays. Where a cell has few trials, its estimate is drawn towards that of the cell over all
 // sides, of the 4x4x4 cells around, and of the whole scene. The grid covers the receivers of the trials, but for the outermost in each
@@ -22,7 +22,6 @@ namespace blush {
 class LightVisibility {
 public:
     static constexpr int cells_along_longest = 16;
-    static constexpr double least_factor = 1.0 / 16;
 
     LightVisibility() = default;
     // `lights` with a light tree. Trials with non-finite positions are ignored.

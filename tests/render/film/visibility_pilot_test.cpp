@@ -207,7 +207,7 @@ TEST(VisibilityPilot, IsFollowedByThePathLog) {
     const Scene scene = shuttered_room();
     const RenderSettings settings = settings_of(8);
     const Frame frame = rendered(scene, settings, {{5, 1}});
-    for (const auto& [x, y] : {std::pair{10, 20}, {40, 30}, {70, 10}}) {
+    for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
         const std::string log = trace_sample(scene, settings, x, y, 5);
         float red = -1;
         std::sscanf(log.c_str() + log.rfind("radiance ("), "radiance (%f", &red);
