@@ -9,6 +9,7 @@
 #include "render/film/film_columns.h"
 #include "render/film/film_state.h"
 #include "render/film/pilot_variance.h"
+#include "render/film/portal_choice.h"
 #include "render/film/reuse_choice.h"
 #include "render/film/reuse_pilot.h"
 #include "render/film/sample_allocation.h"
@@ -57,6 +58,7 @@ struct Renderer::State {
     PilotVariance pilot_variance;
     ReuseChoice reuse; // of the scene and settings, like the next
     VisibilityChoice visibility;
+    PortalChoice portals;
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     int divider = 1;
     const Kernel* kernel = nullptr;
@@ -84,6 +86,11 @@ struct Renderer::State {
         return context;
     }
     bool decide(const std::function<bool()>& wanted);
+    // With what the pilots have learned, for a sample of this index at full resolution.
+    SceneTables learned_tables(int64_t sample) const { return portals.tables(visibility.tables(scene.tables(), sample), sample); }
+    bool changes_after_first_sample() const {
+        return divider == 1 && (visibility.pays() || portals.pays() || reuse_group_size(0) != reuse_group_size(1));
+    }
     int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(sample) : reuse.first_group_size(); }
 
     FilmSize full_film() const {
@@ -180,6 +187,7 @@ void Renderer::State::begin_film(Clock::time_point begun) {
     clear();
     reuse = ReuseChoice(settings, scene);
     visibility = VisibilityChoice(settings, scene);
+    portals = PortalChoice(settings, scene);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -209,6 +217,7 @@ void Renderer::select_lights_by_mix() {
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
     s.visibility = VisibilityChoice(s.settings, s.scene);
+    s.portals = PortalChoice(s.settings, s.scene);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -250,6 +259,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
         feature_report.push_back(s.reuse.report());
         feature_report.push_back(s.visibility.report());
+        feature_report.push_back(s.portals.report());
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;
@@ -267,7 +277,7 @@ ReuseCovariance Renderer::reuse_covariance() {
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
-    const SceneTables tables = visibility.tables(scene.tables(), divider == 1 ? run.first : 0);
+    const SceneTables tables = learned_tables(divider == 1 ? run.first : 0);
     KernelContext context = context_for(tables);
     context.seed = settings.seed;
     context.settings.reuse = run.groups;
@@ -390,9 +400,16 @@ bool Renderer::State::decide(const std::function<bool()>& wanted) {
         visibility.decide(*std::move(learned));
         feature_report.reset();
     }
+    if (portals.needs_pilot()) {
+        const SceneTables tables = learned_tables(1);
+        auto pilot = learn_portals(pilot_context(tables), *kernel, workers, replays, wanted);
+        if (!pilot) return false;
+        portals.decide(*std::move(pilot));
+        feature_report.reset();
+    }
     // Measures the samples as they will be rendered.
     if (reuse.needs_pilot()) {
-        const SceneTables tables = visibility.tables(scene.tables(), 1);
+        const SceneTables tables = learned_tables(1);
         const auto measured = measure_path_reuse(pilot_context(tables), *kernel, workers, replays, wanted);
         if (!measured) return false;
         reuse.decide(*measured);
@@ -413,7 +430,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         int64_t step = count - done;
         // Ends where the pilot of adaptive sampling is measured, and where the pilots' decisions apply.
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
-        if (next == 0 && s.divider == 1 && (s.visibility.pays() || s.reuse_group_size(0) != s.reuse_group_size(1))) step = 1;
+        if (next == 0 && s.changes_after_first_sample()) step = 1;
         const bool planned = s.settings.adaptive && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
         s.samples += step;

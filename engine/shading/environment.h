@@ -56,16 +56,18 @@ template <class F> EnvironmentCell<F> environment_cell(const EnvironmentTables& 
     return {select(as_mask(c >= env.width), Int<F>(0), c), min(to_int(row), Int<F>(env.height)), x - column, y - row};
 }
 
-// Radiance in nits from `direction`; zero in inactive lanes.
-template <class F> Vec<F> environment_radiance(const EnvironmentTables& env, const Vec<F>& direction, const Mask<F>& active) {
-    if (!any(active)) return splat<F>(0.f);
-    const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
+// Radiance in nits; zero in inactive lanes.
+template <class F> Vec<F> radiance_of_cell(const EnvironmentTables& env, const EnvironmentCell<F>& cell, const Mask<F>& active) {
     const Int<F> left = select(as_mask(cell.column == 0), Int<F>(env.width - 1), Int<F>(cell.column - 1)), right = cell.column;
     const Int<F> top = max(Int<F>(cell.row - 1), Int<F>(0)) * env.width;
     const Int<F> bottom = min(cell.row, Int<F>(env.height - 1)) * env.width;
     const Vec<F> above = lerp(gather3<F>(env.texels, top + left), gather3<F>(env.texels, top + right), cell.x);
     const Vec<F> below = lerp(gather3<F>(env.texels, bottom + left), gather3<F>(env.texels, bottom + right), cell.x);
     return select(active, lerp(above, below, cell.y) * splat<F>(env.scale), splat<F>(0.f));
+}
+template <class F> Vec<F> environment_radiance(const EnvironmentTables& env, const Vec<F>& direction, const Mask<F>& active) {
+    if (!any(active)) return splat<F>(0.f);
+    return radiance_of_cell<F>(env, environment_cell<F>(env, direction), active);
 }
 
 template <class F> struct EnvironmentSample {
@@ -95,11 +97,13 @@ template <class F> EnvironmentSample<F> sample_environment(const EnvironmentTabl
 }
 
 // The pdf, 1/sr, of sample_environment for a direction.
-template <class F> F environment_pdf(const EnvironmentTables& env, const Vec<F>& direction) {
-    const EnvironmentCell<F> cell = environment_cell<F>(env, direction);
+template <class F> F pdf_of_cell(const EnvironmentTables& env, const EnvironmentCell<F>& cell) {
     const F p_row = discrete_probability<F>(env.row_thresholds, Int<F>(0), Int<F>(env.height + 1), cell.row);
     const F p_column = discrete_probability<F>(env.column_thresholds, Int<F>(cell.row * env.width), Int<F>(env.width), cell.column);
     return p_row * p_column * gather_field(env.rows, &EnvironmentRow::density, cell.row);
+}
+template <class F> F environment_pdf(const EnvironmentTables& env, const Vec<F>& direction) {
+    return pdf_of_cell<F>(env, environment_cell<F>(env, direction));
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -10,6 +10,7 @@
 #include "shading/features.h"
 #include "shading/light_profile.h"
 #include "shading/light_selection.h"
+#include "shading/portals.h"
 
 #include <cstdint>
 
@@ -54,6 +55,7 @@ struct LightTables {
     int32_t sun_count = 0;
     int32_t first_sphere = 0; // index of the first sphere; spheres are consecutive
     ProfileTables profiles;
+    PortalTables portals; // of the environment
 };
 
 } // namespace blush

@@ -3,8 +3,8 @@
 // by different lights. Related: Guo et al. 2020, "Next Event Estimation++: Visibility Mapping for Efficient Light Transport Simulation".
 #pragma once
 
-#include "core/lanes.h"
-#include "core/vec.h"
+#include "core/math.h"
+#include "shading/receiver_grid.h"
 
 #include <cstdint>
 
@@ -20,9 +20,7 @@ constexpr int max_visibility_lights = 32;
 struct LightVisibilityGrid {
     const uint32_t* factors = nullptr; // rows of `words`: by cell, x fastest, and side; null: nothing has been learned
     int32_t words = 0;                 // of a row: child k of the root has byte k, distant light k byte root_count + k
-    int32_t cells[3] = {1, 1, 1};
-    Vec3 low{0, 0, 0}; // corner of the grid; receivers outside take the nearest cell
-    float cells_per_metre = 0;
+    ReceiverGrid grid;
 
     bool operator==(const LightVisibilityGrid&) const = default;
 };
@@ -32,27 +30,22 @@ struct LightVisibilityGrid {
 namespace blush::inline BLUSH_ISA {
 
 // First word of the receiver's row. A zero normal has a side, too.
-template <class F> Int<F> visibility_row(const LightVisibilityGrid& grid, const Vec<F>& position, const Vec<F>& normal) {
-    // The order of min and max maps NaN to cell 0.
-    const auto cell = [&](const F& x, float low, int32_t cells) {
-        return to_int(min(max(F((x - low) * grid.cells_per_metre), F(0.f)), F(float(cells - 1))));
-    };
-    const Int<F> x = cell(position.x, grid.low.x, grid.cells[0]), y = cell(position.y, grid.low.y, grid.cells[1]),
-                 z = cell(position.z, grid.low.z, grid.cells[2]);
+template <class F> Int<F> visibility_row(const LightVisibilityGrid& visibility, const Vec<F>& position, const Vec<F>& normal) {
     const Vec<F> along = abs(normal);
     const Mask<F> is_x = along.x >= along.y && along.x >= along.z, is_y = along.y >= along.z;
     const F component = select(is_x, normal.x, select(is_y, normal.y, normal.z));
     const Int<F> axis = select(is_x, Int<F>(0), select(is_y, Int<F>(2), Int<F>(4)));
     const Int<F> side = select(component < F(0.f), Int<F>(axis + 1), axis);
-    return (((z * grid.cells[1] + y) * grid.cells[0] + x) * visibility_sides + side) * grid.words;
+    return (receiver_cell<F>(visibility.grid, position) * visibility_sides + side) * visibility.words;
 }
 
 // Multiplies the importances of[0..count) by the factors of the receiver's row, and mixes them with the importances as they were.
-template <class F> void apply_visibility(const LightVisibilityGrid& grid, const Vec<F>& position, const Vec<F>& normal, F* of, int count) {
-    const Int<F> row = visibility_row<F>(grid, position, normal);
+template <class F>
+void apply_visibility(const LightVisibilityGrid& visibility, const Vec<F>& position, const Vec<F>& normal, F* of, int count) {
+    const Int<F> row = visibility_row<F>(visibility, position, normal);
     F factors[max_visibility_lights], unlearned = F(0.f), learned = F(0.f);
     for (int word = 0; word * visibility_word_lights < count; ++word) {
-        const UInt<F> four = gather(grid.factors + word, row);
+        const UInt<F> four = gather(visibility.factors + word, row);
         for (int k = 0; k < visibility_word_lights && word * visibility_word_lights + k < count; ++k) {
             const int light = word * visibility_word_lights + k;
             factors[light] = to_float(to_signed(UInt<F>((four >> (8 * k)) & 255u))) * (1.f / 255);

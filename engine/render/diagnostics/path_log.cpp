@@ -4,6 +4,7 @@
 #include "render/compile/expanded_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
+#include "render/film/portal_choice.h"
 #include "render/film/visibility_choice.h"
 #include "render/film/visibility_pilot.h"
 #include "render/integrator/estimator_settings.h"
@@ -101,11 +102,14 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     compiled.update(expanded, settings, full_plan(), workers);
     KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height), settings.seed};
     std::vector<std::unique_ptr<TileScratch>> scratches(1);
+    const Kernel& kernel = choose_kernel(compiled.features());
     VisibilityChoice visibility(settings, compiled);
-    if (sample > 0 && visibility.needs_pilot())
-        visibility.decide(*learn_light_visibility(context, choose_kernel(compiled.features()), workers, scratches, {}));
-    const SceneTables tables = visibility.tables(compiled.tables(), sample);
+    if (sample > 0 && visibility.needs_pilot()) visibility.decide(*learn_light_visibility(context, kernel, workers, scratches, {}));
+    SceneTables tables = visibility.tables(compiled.tables(), sample);
     context.scene = &tables;
+    PortalChoice portals(settings, compiled);
+    if (sample > 0 && portals.needs_pilot()) portals.decide(*learn_portals(context, kernel, workers, scratches, {}));
+    tables = portals.tables(tables, sample);
     Logger log{expanded, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 

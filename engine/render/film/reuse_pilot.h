@@ -17,10 +17,8 @@ namespace blush {
 // so the result does not depend on the image's samples. It is the same for any number of threads and any instruction set. Returns the
 // figures of the size with the lowest cost.
 //
-// The error of a pixel is half the difference of its two half buffers, which are independent randomisations of the sampler: its square
-// estimates the variance of stratified samples. MSE is the sum of these squares; relMSE divides them by the squared mean of the tile.
-// The mean of the pixel is no divisor: it would hide fireflies, and count a firefly that path reuse has spread over eight pixels eight
-// times. Cost is counted in rays, not in time.
+// Errors as in variant_comparison.h, relative to the mean of a tile: that of a pixel would count a firefly that path reuse has spread over
+// eight pixels eight times. Cost is counted in rays, not in time.
 //
 // `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if needed. Empty if
 // `wanted` returned false.

@@ -38,10 +38,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             const Vec<F> radiance = environment_radiance<F>(scene.environment, path.ray.direction, active);
             F weight = F(1.f);
             if (aims) {
-                F pdf = F(0.f);
-                if (lights.samples_environment)
-                    pdf = environment_pdf<F>(scene.environment, path.ray.direction) *
-                          light_probability<S, F>(lights, from, Int<F>(lights.environment), active);
+                const F pdf = environment_nee_pdf<S, F>(scene, from, path.ray.direction, active);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
             }
             visit(lights.environment, radiance * weight, weight, active);
@@ -55,7 +52,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             if (!any(inside)) continue;
             F weight = F(1.f);
             if (aims) {
-                const F pdf = cone_pdf(F(sun.cone_height)) * light_probability<S, F>(lights, from, Int<F>(lights.suns[i]), inside);
+                const F pdf = cone_pdf(F(sun.cone_height)) * nee_probability<S, F>(scene, from, Int<F>(lights.suns[i]), inside);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
             }
             weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
@@ -102,7 +99,7 @@ template <Features S, class F> F surface_emission_mis_weight(const SceneTables& 
     const Int<F> light = select(sampled, found, Int<F>(0));
     const Receiver<F> from{path.ray.origin, path.normal};
     const F per_area =
-        light_probability<S, F>(scene.lights, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
+        nee_probability<S, F>(scene, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
     return emission_mis_weight(strategy, path.pdf, pdf);
 }
@@ -140,7 +137,7 @@ template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const Sc
     F found = F(1.f);
     if (strategy != Strategy::bsdf) { // Strategy::bsdf has no NEE and no table
         const Receiver<F> from{path.ray.origin, path.normal};
-        const F pdf = cone_pdf(select(outside, height, F(1.f))) * light_probability<S, F>(scene.lights, from, light, outside);
+        const F pdf = cone_pdf(select(outside, height, F(1.f))) * nee_probability<S, F>(scene, from, light, outside);
         found = emission_mis_weight(strategy, path.pdf, pdf);
     }
     const F weight = if_linked<S, F>(scene, found, light, path, active);

@@ -86,7 +86,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
     const ScatterSetup<F> setup = scatter_setup<S, F>(scene, material, p);
-    if (scene.lights.count > 0)
+    if (scene.lights.count > 0 || scene.lights.portals.rows)
         sample_direct<S, F>(scene, settings.strategy, p, setup, sampler.pair(dimension + light_dimension), light_timer, out);
 
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);

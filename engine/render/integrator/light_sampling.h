@@ -137,11 +137,11 @@ template <Features S, class F>
     }
 }
 
-// A direction of the environment map; `v`: random bits.
-template <Features S, class F>
-[[gnu::always_inline]] inline void sample_environment_light(const SceneTables& scene, const F& u, const UInt<F>& v, LightPoint<F>& p) {
+// A direction of the environment map in the lanes of `by_map`; `v`: random bits.
+template <Features S, class F> [[gnu::always_inline]] inline void
+sample_environment_light(const SceneTables& scene, const F& u, const UInt<F>& v, const Mask<F>& by_map, LightPoint<F>& p) {
     if constexpr (S.has(Feature::environment)) {
-        const Mask<F> environment = has_kind(p, LightKind::environment);
+        const Mask<F> environment = by_map && has_kind(p, LightKind::environment);
         if (!any(environment)) return;
         const EnvironmentSample<F> e = sample_environment<F>(scene.environment, u, v);
         p.position = select<F>(environment, e.direction, p.position);
@@ -151,11 +151,79 @@ template <Features S, class F>
     }
 }
 
+// Probability that NEE selects `light`, other than the environment, for that receiver.
+template <Features S, class F>
+F nee_probability(const SceneTables& scene, const Receiver<F>& to, const Int<F>& light, const Mask<F>& active) {
+    const F p = light_probability<S, F>(scene.lights, to, light, active);
+    if constexpr (S.has(Feature::environment))
+        if (scene.lights.portals.rows) return p * (1.f - portal_at<F>(scene.lights.portals, to.position).share);
+    return p;
+}
+
+// Pdf of NEE for a direction of the environment, 1/sr: of its importance map and of the receiver's portal together.
+template <Features S, class F>
+F environment_nee_pdf(const SceneTables& scene, const Receiver<F>& to, const Vec<F>& direction, const Mask<F>& active) {
+    const LightTables& lights = scene.lights;
+    F pdf = F(0.f);
+    if (lights.samples_environment)
+        pdf = environment_pdf<F>(scene.environment, direction) * light_probability<S, F>(lights, to, Int<F>(lights.environment), active);
+    if (!lights.portals.rows) return pdf;
+    const Portal<F> portal = portal_at<F>(lights.portals, to.position);
+    return pdf * (1.f - portal.share) + portal.share * portal_pdf<F>(lights.portals, portal, direction);
+}
+
+// Which lanes sample their portal instead of a light; `rest`: the random numbers behind that decision.
+template <class F> struct PortalSelection {
+    Mask<F> chosen = Mask<F>(false);
+    Portal<F> portal{Int<F>(0), F(0.f)};
+    Pair<F> rest;
+};
+template <class F>
+PortalSelection<F> choose_portal(const PortalTables& portals, const Vec<F>& position, const Pair<F>& random, const Mask<F>& active) {
+    PortalSelection<F> selection{.rest = random};
+    selection.portal = portal_at<F>(portals, position);
+    selection.chosen = active && selection.portal.share > F(0.f);
+    if (portals.alone) return selection;
+    // The first bit decides, the others remain.
+    selection.rest.bits_x = select(selection.chosen, UInt<F>((random.bits_x << 1) | (pcg_hash(random.bits_y) & 1u)), random.bits_x);
+    selection.chosen = selection.chosen && as_mask((random.bits_x >> 31) != 0u);
+    return selection;
+}
+
+// Fills the lanes that sample their portal, and gives all directions of the environment the pdf of both strategies
+// (environment_nee_pdf).
+template <Features S, class F> [[gnu::noinline]] void sample_environment_portal(const SceneTables& scene,
+                                                                                const PortalSelection<F>& selection, const F& v,
+                                                                                const Receiver<F>& to, LightPoint<F>& p) {
+    const LightTables& lights = scene.lights;
+    const F share = selection.portal.share;
+    const Mask<F> environment = has_kind(p, LightKind::environment);
+    p.probability = select(environment, F(1.f), p.probability * (1.f - share));
+    if (!any(environment)) return;
+    p.infinite = p.infinite || environment;
+    p.position = select<F>(selection.chosen, sample_portal<F>(lights.portals, selection.portal, selection.rest.bits_x, v), p.position);
+    const EnvironmentCell<F> cell = environment_cell<F>(scene.environment, p.position);
+    p.emission = select<F>(selection.chosen, radiance_of_cell<F>(scene.environment, cell, selection.chosen), p.emission);
+    F pdf = share * portal_pdf<F>(lights.portals, selection.portal, p.position);
+    if (lights.samples_environment)
+        pdf = pdf + (1.f - share) * pdf_of_cell<F>(scene.environment, cell) *
+                        light_probability<S, F>(lights, to, Int<F>(lights.environment), environment);
+    p.density = select(environment, pdf, p.density);
+}
+
 // Samples a light for a receiver, and a point on it.
 template <Features S, class F>
 LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
-    const DiscreteSample<F> pick = pick_light<S, F>(scene.lights, to, random, active);
+    PortalSelection<F> by_portal{.rest = random};
+    if constexpr (S.has(Feature::environment))
+        if (scene.lights.portals.rows) by_portal = choose_portal<F>(scene.lights.portals, to.position, random, active);
+    DiscreteSample<F> pick{Int<F>(0), F(0.f), F(0.f)};
+    if (scene.lights.count > 0) pick = pick_light<S, F>(scene.lights, to, by_portal.rest, active && !by_portal.chosen);
+    if constexpr (S.has(Feature::environment)) {
+        pick.index = select(by_portal.chosen, Int<F>(scene.lights.environment), pick.index);
+        pick.probability = select(by_portal.chosen, F(1.f), pick.probability);
+    }
     const F u = pick.remainder, v = random.y();
 
     LightPoint<F> p;
@@ -178,7 +246,9 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || has_kind(p, LightKind::point);
     sample_sphere_light<S, F>(scene, to.position, u, v, p);
     sample_sun<S, F>(scene, u, v, p);
-    sample_environment_light<S, F>(scene, u, random.bits_y, p);
+    sample_environment_light<S, F>(scene, u, random.bits_y, !by_portal.chosen, p);
+    if constexpr (S.has(Feature::environment))
+        if (scene.lights.portals.rows) sample_environment_portal<S, F>(scene, by_portal, v, to, p);
     return p;
 }
 

@@ -113,6 +113,17 @@ template <class F> void record_trials(TileScratch& scratch, const Step<F>& s, co
     });
 }
 
+// Records the rays of the paths that are appended to the next queue.
+template <class F> void record_escapes(EscapeTrials& escapes, const Path<F>& next, const Mask<F>& lanes) {
+    for_each_lane(bits(lanes), [&](int i) {
+        const Vec<F>&at = next.ray.origin, &to = next.ray.direction;
+        escapes.all.push_back({{lane(at.x, i), lane(at.y, i), lane(at.z, i)},
+                               {lane(to.x, i), lane(to.y, i), lane(to.z, i)},
+                               lane(next.pdf, i) == infinity,
+                               false});
+    });
+}
+
 // Adds the light of unoccluded shadow ray k.
 inline void add_shadow_light(TileScratch& scratch, const ShadowQueue& q, int k) {
     const int slot = q.slot[k];

@@ -157,6 +157,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         }
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
+        if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
     return light_timer.estimate();
@@ -197,6 +198,10 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         }
         (bounce > 0 ? scratch.bounce_rays : scratch.camera_rays) += now->size;
         trace_paths<S, F>(context, scratch, *now, *next, bounce);
+        if (scratch.escapes) {
+            if (bounce > 0) scratch.escapes->note_hits(scratch.hits.geometry, now->size);
+            scratch.escapes->first = scratch.escapes->all.size();
+        }
         timer.end(Stage::trace);
         const int64_t light_ticks = shade_paths<S, F>(context, scratch, *now, *next, bounce);
         scratch.stages[Stage::light] += light_ticks;

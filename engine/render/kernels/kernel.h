@@ -10,6 +10,7 @@
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
+#include "render/lights/escape_trial.h"
 #include "render/lights/shadow_trial.h"
 #include "shading/features.h"
 
@@ -97,6 +98,7 @@ struct TileScratch {
     std::unique_ptr<RouletteColumns> roulette;        // null: not needed
     std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes
     std::unique_ptr<std::vector<ShadowTrial>> trials; // of the tile's shadow rays, accumulated; null: not recorded
+    std::unique_ptr<EscapeTrials> escapes;            // null: not recorded
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

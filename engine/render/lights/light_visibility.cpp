@@ -1,16 +1,15 @@
 #include "render/lights/light_visibility.h"
 
+#include "render/lights/receiver_grid.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace blush {
 namespace {
 
-constexpr double outermost = 0.01;     // share of the trials beyond each face of the grid
-constexpr double phase = 0.3819660113; // of the grid in cells: surfaces at round coordinates must not lie between two cells
-constexpr int block = 4;               // cells along a block
-constexpr double prior_trials = 4;     // weight of the coarser estimate
+constexpr int block = 4;           // cells along a block
+constexpr double prior_trials = 4; // weight of the coarser estimate
 
 // Rays towards one group: a child of the root or a distant light.
 struct Count {
@@ -30,34 +29,10 @@ int group_of(const LightTables& lights, int32_t light) {
     return trail == no_trail ? -1 : int(trail & (max_tree_children - 1));
 }
 
-bool is_usable(const ShadowTrial& t) { return std::isfinite(t.position.x + t.position.y + t.position.z); }
-
-// Leaves `factors` null.
-LightVisibilityGrid grid_over(std::span<const ShadowTrial> trials, int groups) {
-    LightVisibilityGrid grid;
-    std::array<float, 3> low, extent;
-    std::vector<float> along;
-    for (size_t axis = 0; axis < 3; ++axis) {
-        along.clear();
-        for (const ShadowTrial& t : trials)
-            if (is_usable(t)) along.push_back(axis == 0 ? t.position.x : axis == 1 ? t.position.y : t.position.z);
-        if (along.empty()) return grid;
-        const auto quantile = [&](double share) {
-            const auto at = along.begin() + std::ptrdiff_t(share * double(along.size() - 1));
-            std::ranges::nth_element(along, at);
-            return *at;
-        };
-        low[axis] = quantile(outermost);
-        extent[axis] = quantile(1 - outermost) - low[axis];
-    }
-    const float longest = std::ranges::max(extent), size = longest / LightVisibility::cells_along_longest;
-    grid.cells_per_metre = 1 / size;
-    if (!(size > 0) || !std::isfinite(grid.cells_per_metre)) return {};
-    grid.words = (groups + visibility_word_lights - 1) / visibility_word_lights;
-    const float before = float(phase) * size;
-    grid.low = {low[0] - before, low[1] - before, low[2] - before};
-    for (size_t axis = 0; axis < 3; ++axis) grid.cells[axis] = int(extent[axis] * grid.cells_per_metre + float(phase)) + 1;
-    return grid;
+std::vector<Vec3> positions_of(std::span<const ShadowTrial> trials) {
+    std::vector<Vec3> positions;
+    for (const ShadowTrial& t : trials) positions.push_back(t.position);
+    return positions;
 }
 
 } // namespace
@@ -65,18 +40,19 @@ LightVisibilityGrid grid_over(std::span<const ShadowTrial> trials, int groups) {
 LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const LightTables& lights) {
     const int groups = lights.tree.root_count + lights.tree.distant_count;
     const auto g = size_t(groups);
-    shape_ = grid_over(trials, groups);
-    if (shape_.words == 0) return;
-    const size_t cells = size_t(shape_.cells[0]) * size_t(shape_.cells[1]) * size_t(shape_.cells[2]), rows = cells * visibility_sides;
-    const auto blocks = [&](size_t axis) { return size_t((shape_.cells[axis] + block - 1) / block); };
+    const ReceiverGrid grid = make_receiver_grid(positions_of(trials), cells_along_longest);
+    if (grid.cells_per_metre == 0) return;
+    shape_ = {.factors = nullptr, .words = (groups + visibility_word_lights - 1) / visibility_word_lights, .grid = grid};
+    const auto cells = size_t(grid.count()), rows = cells * visibility_sides;
+    const auto blocks = [&](size_t axis) { return size_t((grid.cells[axis] + block - 1) / block); };
     const auto block_of = [&](size_t cell) {
-        const size_t x = cell % size_t(shape_.cells[0]), y = cell / size_t(shape_.cells[0]) % size_t(shape_.cells[1]),
-                     z = cell / (size_t(shape_.cells[0]) * size_t(shape_.cells[1]));
+        const size_t x = cell % size_t(grid.cells[0]), y = cell / size_t(grid.cells[0]) % size_t(grid.cells[1]),
+                     z = cell / (size_t(grid.cells[0]) * size_t(grid.cells[1]));
         return (z / block * blocks(1) + y / block) * blocks(0) + x / block;
     };
     std::vector<Count> of_scene(g), of_block(blocks(0) * blocks(1) * blocks(2) * g), of_cell(cells * g), of_row(rows * g);
     for (const ShadowTrial& t : trials) {
-        const int group = is_usable(t) ? group_of(lights, t.light) : -1;
+        const int group = is_finite_position(t.position) ? group_of(lights, t.light) : -1;
         if (group < 0) continue;
         const size_t row = size_t(visibility_row<float>(shape_, t.position, t.normal)) / size_t(shape_.words),
                      cell = row / visibility_sides;

@@ -126,8 +126,8 @@ TEST(LightVisibility, ScalesExactlyWithPowersOfTwo) {
         const LightVisibilityGrid b = scaled.grid();
         ASSERT_EQ(learned.memory_bytes(), scaled.memory_bytes());
         EXPECT_TRUE(std::equal(a.factors, a.factors + learned.memory_bytes() / 4, b.factors)) << scale;
-        EXPECT_EQ(a.low * scale, b.low);
-        EXPECT_EQ(a.cells_per_metre, b.cells_per_metre * scale);
+        EXPECT_EQ(a.grid.low * scale, b.grid.low);
+        EXPECT_EQ(a.grid.cells_per_metre, b.grid.cells_per_metre * scale);
     }
 }
 
