@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include "core/startable_threads.h"
+#include "core/started_observer.h"
 #include "core/tsan_annotations.h"
 
 #include <atomic>
@@ -9,7 +10,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <tbb/task_scheduler_observer.h>
 #include <thread>
 
 #ifdef __linux__
@@ -24,9 +24,7 @@ namespace {
 
 class ThreadSetup : public tbb::task_scheduler_observer {
 public:
-    ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) {
-        observe(true);
-    }
+    ThreadSetup(tbb::task_arena& arena, bool low_priority) : tbb::task_scheduler_observer(arena), low_priority_(low_priority) {}
     ~ThreadSetup() override { observe(false); }
 
     void on_scheduler_entry(bool is_worker) override {
@@ -66,8 +64,8 @@ void lower_priority_of_this_thread() {
 
 struct Workers::State {
     tbb::task_arena arena;
-    ThreadSetup setup;
-    State(unsigned threads, bool low_priority) : arena(int(threads)), setup(arena, low_priority) {}
+    std::unique_ptr<ThreadSetup> setup;
+    State(unsigned threads, bool low_priority) : arena(int(threads)), setup(start_observer<ThreadSetup>(arena, low_priority)) {}
 };
 
 Workers::Workers(unsigned threads, bool low_priority)

@@ -2,12 +2,12 @@
 
 #include "core/parallel.h"
 #include "core/startable_threads.h"
+#include "core/started_observer.h"
 #include "core/tsan_annotations.h"
 
 #include <algorithm>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
-#include <tbb/task_scheduler_observer.h>
 #include <thread>
 #include <utility>
 
@@ -31,9 +31,7 @@ bool this_thread_has_low_priority() {
 
 class SamePriority : public tbb::task_scheduler_observer {
 public:
-    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), low_(this_thread_has_low_priority()) {
-        observe(true);
-    }
+    explicit SamePriority(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena), low_(this_thread_has_low_priority()) {}
     ~SamePriority() override { observe(false); }
 
     void on_scheduler_entry(bool is_worker) override {
@@ -50,11 +48,11 @@ struct TaskQueue::State {
     unsigned threads;
     std::vector<std::function<void()>> waiting; // used without other threads
     tbb::task_arena arena;
-    SamePriority priority;
+    std::unique_ptr<SamePriority> priority;
     tbb::task_group group;
     HappensBefore to_helpers, from_helpers;
 
-    explicit State(unsigned count) : threads(count), arena(int(count)), priority(arena) {
+    explicit State(unsigned count) : threads(count), arena(int(count)), priority(start_observer<SamePriority>(arena)) {
         if (!alone()) arena.initialize(); // initialised here to capture this thread's floating-point settings
     }
 
