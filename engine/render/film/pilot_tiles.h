@@ -9,6 +9,9 @@ namespace blush {
 
 constexpr int pilot_tile_side = 8; // small, so that there are many; a whole block of path reuse groups
 constexpr int pilot_samples = 8;   // of each pixel, both halves together
+// Of pilots that learn where light comes from, whatever the image's limit: so light by bounces (bounce_planes.h) stays that of shorter
+// paths.
+constexpr int pilot_max_bounces = 8;
 
 // At most 64 tiles for a film of this size, spread by the R2 sequence (Roberts 2018), whatever its aspect ratio.
 std::vector<TileJob> pilot_tiles(int width, int height);

@@ -12,7 +12,6 @@ namespace {
 const char* why_no_portals(const RenderSettings& settings, const SceneTables& tables) {
     if (settings.strategy != Strategy::mis) return "light and BSDF sampling are not combined";
     if (tables.lights.environment < 0 || !tables.environment.lights_scene) return "no environment lights the scene";
-    if (settings.max_bounces == 0) return "paths end before they could reach the environment";
     return nullptr;
 }
 

@@ -18,6 +18,7 @@ constexpr double least_reach = 0.02; // share of the rays
 std::optional<PortalPilot> learn_portals(KernelContext context, const Kernel& kernel, const Workers& workers,
                                          std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     context.settings.reuse = {};
+    context.settings.max_bounces = pilot_max_bounces;
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
     const auto for_each_tile = [&](const auto& task) {
         return workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {

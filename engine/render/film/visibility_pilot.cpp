@@ -16,6 +16,7 @@ std::optional<LightVisibility> learn_light_visibility(KernelContext context, con
                                                       const std::function<bool()>& wanted) {
     context.seed = visibility_pilot_seed;
     context.settings.reuse = {};
+    context.settings.max_bounces = pilot_max_bounces;
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
     std::vector<std::vector<ShadowTrial>> of_tile(tiles.size());
     const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
