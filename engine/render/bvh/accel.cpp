@@ -486,4 +486,10 @@ void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* b
     }
 }
 
+void Accel::visit_near(const Vec3& center, float radius, const NearVisitor& visit) const {
+    const State& s = *state_;
+    const NearScenes scenes{s.top.scene, s.area_lights.scene, s.first_area_light, s.area_light_meshes, s.first_instance};
+    blush::visit_near(scenes, center, radius, visit);
+}
+
 } // namespace blush
