@@ -71,8 +71,8 @@ public:
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;
-    // Visits the triangles near a point (near_query.h).
-    void visit_near(const Vec3& center, float radius, const NearVisitor& visit) const;
+    // Visits the triangles near a point (near_query.h). `places` of the instances, as committed.
+    void visit_near(const Vec3& center, float radius, const InstanceRecord* places, const NearVisitor& visit) const;
 
 private:
     struct State;

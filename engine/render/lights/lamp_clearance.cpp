@@ -23,6 +23,9 @@ constexpr double rounding_margin = 0x1p-18;
 // Metres: Embree's queries square distances in single precision.
 constexpr double min_side = 1e-12;
 
+// Limit of lamps times instances: each lamp asks for the place of each instance, some 10 ns.
+constexpr int64_t max_places = int64_t(1) << 22;
+
 constexpr ClearanceBox infinite_box{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
 
 // True if the projections of a triangle and of the box [-half, half] onto `axis` are disjoint.
@@ -62,7 +65,7 @@ struct Scenery {
         for (const AccelSphere& sphere : spheres)
             if (sphere_overlaps(to_double(sphere.center) - center, double(sphere.radius), half)) return false;
         bool empty = true;
-        accel.visit_near(to_float(center), float(length(half) * (1 + relative_margin)), [&](const NearTriangle& t) {
+        accel.visit_near(to_float(center), float(length(half) * (1 + relative_margin)), tables.instances, [&](const NearTriangle& t) {
             const int32_t other = t.geometry + (t.instance >= 0 ? tables.instance_first_part[t.instance] : 0);
             if (other == part) return true;
             Vec3 corners[3];
@@ -116,7 +119,9 @@ bool LampClearances::find_lamps(const std::vector<SceneObject>& objects, const G
 void LampClearances::find_clear_lamps(const Accel& accel, const GeometryPool& geometry, const SceneTables& tables,
                                       const std::vector<AccelSphere>& spheres, const Workers& workers) {
     const Scenery scenery{accel, geometry, tables, spheres};
-    boxes_.resize(lamps_.size());
+    boxes_.assign(lamps_.size(), infinite_box);
+    clear_lamps_ = 0;
+    if (int64_t(lamps_.size()) * geometry.instance_count() > max_places) return;
     workers.for_each(int64_t(lamps_.size()), {}, [&](int64_t i, unsigned) {
         const Lamp& lamp = lamps_[size_t(i)];
         boxes_[size_t(i)] = clearance_box(scenery, to_double(lamp.low), to_double(lamp.high), lamp.part);

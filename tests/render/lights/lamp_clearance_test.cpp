@@ -19,7 +19,9 @@ namespace {
 
 bool same_boxes(const CompiledLamps& a, const CompiledLamps& b) {
     const std::vector<ClearanceBox> x = a.boxes(), y = b.boxes();
-    return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+    const bool none = !a.scene.tables().lights.clearances;
+    return none == !b.scene.tables().lights.clearances && x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
 }
 
 Scene ball_in_room(float radius = 0.6f) {
@@ -127,6 +129,28 @@ const BlockerCase blocker_cases[]{
          }
      },
      false},
+    {"SmallCopyThatTouches", // scaled evenly
+     [](Scene& s) {
+         const Id<Mesh> shared = s.meshes.add({"", {{sphere(false), s.materials.add(lambert(0.5f))}}});
+         for (const float x : {3.f, 0.65f}) {
+             Node node;
+             node.mesh = shared;
+             node.local = at({x, 0, 0}, 0.1f);
+             s.nodes.add(node);
+         }
+     },
+     false},
+    {"CopyAtACorner", // its bounds touch the box, but not itself
+     [](Scene& s) {
+         const Id<Mesh> shared = s.meshes.add({"", {{sphere(false), s.materials.add(lambert(0.5f))}}});
+         for (const Vec3& where : {Vec3{3, 0, 0}, Vec3{r + 0.25f, r + 0.25f, 0}}) {
+             Node node;
+             node.mesh = shared;
+             node.local = at(where, 0.3f);
+             s.nodes.add(node);
+         }
+     },
+     true},
     {"SphereLightThatTouches",
      [](Scene& s) {
          Light light;
@@ -293,6 +317,26 @@ TEST(LampClearance, FollowsEditsOfTheLamp) {
     mesh.parts[1].geometry = moved(sphere(false), {1.5f, 0, 0});
     scene.meshes.set(node.mesh, mesh);
     expect_fresh(false, "two parts that touch");
+}
+
+// Where one of several lamps goes dark, the others keep their boxes under other numbers.
+TEST(LampClearance, FollowsTheOtherLampsIfOneGoesDark) {
+    Scene scene = room();
+    std::vector<Id<Material>> materials;
+    for (const float x : {-1.f, 0.f, 1.f}) {
+        place(scene, sphere(false), glow(), at({x, 0.2f * x, 0}, 0.2f));
+        materials.push_back(std::prev(scene.materials.end())->id);
+    }
+    CompiledLamps compiled(scene);
+    EXPECT_EQ(compiled.clear(), (std::vector<bool>{true, true, true}));
+    for (const Id<Material> id : materials) {
+        Material dark = *scene.materials.find(id);
+        dark.emissive_strength = 0;
+        scene.materials.set(id, dark);
+        compiled.follow(scene);
+        EXPECT_TRUE(same_boxes(compiled, CompiledLamps(scene)));
+    }
+    EXPECT_EQ(compiled.scene.tables().lights.clearances, nullptr);
 }
 
 } // namespace
