@@ -140,6 +140,16 @@ const BlockerCase blocker_cases[]{
          }
      },
      false},
+    {"SecondOfManyPlacesThatTouches",
+     [](Scene& s) {
+         auto places = std::make_shared<Instances>();
+         for (const float x : {3.f, 0.65f, 5.f}) places->node_from_copy.push_back({{0.1f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}, {x, 0, 0}});
+         Node node;
+         node.mesh = s.meshes.add({"", {{sphere(false), s.materials.add(lambert(0.5f))}}});
+         node.instances = std::move(places);
+         s.nodes.add(node);
+     },
+     false},
     {"CopyAtACorner", // its bounds touch the box, but not itself
      [](Scene& s) {
          const Id<Mesh> shared = s.meshes.add({"", {{sphere(false), s.materials.add(lambert(0.5f))}}});
