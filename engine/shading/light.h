@@ -30,15 +30,21 @@ struct LightRecord {
     Vec3 edge1, edge2; // triangle: vertices 1 and 2 minus vertex 0
     // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
     Vec3 emission;
-    float inverse_area; // triangle: 1 / m^2
-    float radius;       // sphere: metres
-    float cone_height;  // sun: 1 - cos of its angular radius; 0 is a parallel beam
+    float inverse_area;     // triangle: 1 / m^2
+    float radius;           // sphere: metres
+    float cone_height;      // sun: 1 - cos of its angular radius; 0 is a parallel beam
+    int32_t clearance = -1; // triangle on the convex hull of its mesh: the box of the mesh in LightTables::clearances; -1: none
 };
 enum LightFlag : int32_t {
     light_two_sided = 1,
     light_varying = 2,  // emission or alpha vary over the triangle
     light_mirrored = 4, // edge1 leads to vertex 2 and edge2 to vertex 1, so that their cross product still points outwards
     light_hidden = 8,   // sun: disk invisible to the camera
+};
+
+// Contains an emissive mesh and no other geometry (lamp_clearance.h). Infinite: other geometry is near the mesh.
+struct ClearanceBox {
+    Vec3 low, high;
 };
 
 struct LightTables {
@@ -53,7 +59,8 @@ struct LightTables {
     int32_t samples_environment = 0;
     const int32_t* suns = nullptr; // indices of the suns with a disk: escaping rays can hit them
     int32_t sun_count = 0;
-    int32_t first_sphere = 0; // index of the first sphere; spheres are consecutive
+    int32_t first_sphere = 0;                 // index of the first sphere; spheres are consecutive
+    const ClearanceBox* clearances = nullptr; // null: all boxes are infinite
     ProfileTables profiles;
     PortalTables portals; // of the environment
 };

@@ -314,12 +314,13 @@ struct Accel::State {
     RTCDevice device = nullptr;
     int packet = 4;
     std::map<BottomKey, SceneHandle> bottoms;
-    bool own_area_lights = false;        // they have a scene of their own
-    SceneHandle top, area_lights;        // area_lights.scene: null if the top level holds them, or if there are none
-    uint32_t first_area_light = 0;       // number of the first mesh of an area light in the top level
-    uint32_t area_light_meshes = 0;      // in the scene of the area lights
-    uint32_t first_instance = 0;         // Embree id of the first instance in the top level
-    uint32_t first_sphere = 0;           // Embree id of the first sphere geometry, after the instances
+    bool own_area_lights = false;   // they have a scene of their own
+    SceneHandle top, area_lights;   // area_lights.scene: null if the top level holds them, or if there are none
+    uint32_t first_area_light = 0;  // number of the first mesh of an area light in the top level
+    uint32_t area_light_meshes = 0; // in the scene of the area lights
+    uint32_t first_instance = 0;    // Embree id of the first instance in the top level
+    uint32_t first_sphere = 0;      // Embree id of the first sphere geometry, after the instances
+    std::vector<MeshInstances> instances;
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
     bool alpha = false;
     std::optional<SmallScene> small;
@@ -400,6 +401,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     // Geometry ids are the same whether the area lights have their own scene or not: stochastic opacity is a function of the instance's id.
     top.next_id = s.first_instance = uint32_t(scene.flat.size());
     uint32_t instance_count = 0;
+    std::vector<MeshInstances> instances_of_meshes;
     for (const AccelInstances& instances : scene.instances) {
         const BottomKey key = key_of(instances);
         auto it = kept.find(key);
@@ -420,6 +422,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             reach = std::min(reach, max_ray_extent(place.world_from_object));
         }
         instance_count += uint32_t(instances.places.size());
+        instances_of_meshes.push_back({it->second.scene, instances.places.size()});
     }
     s.first_sphere = s.first_instance + instance_count;
     if (s.own_area_lights)
@@ -430,6 +433,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     s.check_for_errors();
     s.top = std::move(top);
     s.bottoms = std::move(kept);
+    s.instances = std::move(instances_of_meshes);
     s.reach = reach;
     s.small = make_small_scene(scene);
 }
@@ -484,6 +488,12 @@ void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* b
     case 8: occluded_packets<8>(scenes, context, rays, count, blocked); break;
     default: occluded_packets<4>(scenes, context, rays, count, blocked); break;
     }
+}
+
+void Accel::visit_near(const Vec3& center, float radius, const InstanceRecord* places, const NearVisitor& visit) const {
+    const State& s = *state_;
+    blush::visit_near({s.top.scene, s.area_lights.scene, s.first_area_light, s.area_light_meshes, s.first_instance, s.instances, places},
+                      center, radius, visit);
 }
 
 } // namespace blush

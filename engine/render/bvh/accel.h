@@ -1,10 +1,11 @@
-// The BVH: wraps Embree behind arrays; no other file includes it. Two levels: shared or large meshes are instanced, all other
+// The BVH: wraps Embree behind arrays; no file outside this folder includes it. Two levels: shared or large meshes are instanced, all other
 // geometry is flattened into the top level, where it is traced fastest (an instance costs 3-5 % on every ray, a second level of
 // small boxes 40 %) and is cheap to rebuild.
 #pragma once
 
 #include "core/parallel.h"
 #include "render/bvh/accel_scene.h"
+#include "render/bvh/near_query.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,8 @@ public:
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;
+    // Visits the triangles near a point (near_query.h). `places` of the instances, as committed.
+    void visit_near(const Vec3& center, float radius, const InstanceRecord* places, const NearVisitor& visit) const;
 
 private:
     struct State;

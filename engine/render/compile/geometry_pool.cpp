@@ -290,6 +290,12 @@ std::vector<size_t> GeometryPool::parts_of(const std::vector<SceneObject>& objec
     return parts;
 }
 
+const Geometry& GeometryPool::mesh_of(const std::vector<SceneObject>& objects, size_t part) const {
+    const auto object = size_t(std::ranges::upper_bound(object_first_part_, part) - object_first_part_.begin()) - 1;
+    const std::vector<MeshPart>& parts = objects[object].parts;
+    return *parts[(part - object_first_part_[object]) % parts.size()].geometry;
+}
+
 void GeometryPool::corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const {
     const PartRecord& record = parts_[part];
     for (int k = 0; k < 3; ++k) {

@@ -52,6 +52,8 @@ public:
     const std::vector<Id<Material>>& part_materials() const { return part_materials_; }
     // Indices of the parts that have one of these materials (in id order), ascending. `objects` as passed to build().
     std::vector<size_t> parts_of(const std::vector<SceneObject>& objects, const std::vector<Id<Material>>& materials) const;
+    // The mesh of a part. `objects` as passed to build().
+    const Geometry& mesh_of(const std::vector<SceneObject>& objects, size_t part) const;
     int64_t triangle_count(size_t part) const { return part_triangles_[part]; }
     // World-space vertices of a part's triangle, computed like the kernels do.
     void corners(size_t part, int64_t triangle, Vec3 (&p)[3]) const;

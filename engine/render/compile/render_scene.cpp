@@ -89,6 +89,12 @@ void RenderScene::update_mesh_lights(const Scene& scene, bool aim_changed, const
     area_light_spreads_ = std::move(spreads);
     mesh_lights_ = build_mesh_lights(scene, geometry_, tables_, emissive_parts_, aim_, mesh_lights_, workers);
     geometry_.set_first_lights(mesh_lights_.first_lights);
+    changed_.lamps = clearances_.find_lamps(objects_, geometry_, mesh_lights_, workers);
+}
+
+void RenderScene::update_clearances(const Workers& workers) {
+    if (changed_.bvh || changed_.lamps) clearances_.find_clear_lamps(accel_, geometry_, tables_, accel_spheres(), workers);
+    tables_.lights.clearances = clearances_.boxes();
 }
 
 EnvironmentSampling RenderScene::environment_sampling(const Scene& scene, const RenderSettings& settings) const {
@@ -120,6 +126,7 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     lights_ = build_light_table(scene, mesh_lights_, light_nodes_, spheres_, {emits_light, to_float(mean), environment_.sampled_share},
                                 extent_.origin, aim_, workers);
     lights_.fill(tables_.lights);
+    update_clearances(workers);
     update_caustic_casters(scene, settings);
     update_groups(groups);
     const bool same_parts = !changed_.objects && !changed_.area_lights;

@@ -16,6 +16,7 @@
 #include "render/light_mix/light_groups.h"
 #include "render/lights/caustic_caster_table.h"
 #include "render/lights/environment_table.h"
+#include "render/lights/lamp_clearance.h"
 #include "render/lights/light_links.h"
 #include "render/lights/light_table.h"
 #include "render/lights/mesh_lights.h"
@@ -74,6 +75,7 @@ private:
     void update_accel(const Workers& workers);
     std::vector<AccelSphere> accel_spheres() const;
     void update_mesh_lights(const Scene& scene, bool aim_changed, const Workers& workers);
+    void update_clearances(const Workers& workers);
     EnvironmentSampling environment_sampling(const Scene& scene, const RenderSettings& settings) const;
     void update_lights(const Scene& scene, const RenderSettings& settings, const UpdatePlan& plan, const Workers& workers,
                        const LightGroups* groups);
@@ -93,6 +95,8 @@ private:
         bool casters = false;     // which materials cast caustics
         bool alpha = false;       // which materials are not opaque
         bool masks = false;       // ray masks of objects other than flat meshes of area lights
+        bool bvh = false;         // or the part of it that holds area lights
+        bool lamps = false;       // emissive meshes that may stand clear
     };
     // Members of light groups (light_groups.h).
     struct GroupsOfIds {
@@ -124,6 +128,7 @@ private:
     std::vector<size_t> emissive_parts_;
     std::vector<float> area_light_spreads_; // of area_lights_, as mesh_lights_ has them
     MeshLights mesh_lights_;
+    LampClearances clearances_; // of mesh_lights_
     LightTable lights_;
     GroupsOfIds grouped_;                                 // as group_of_part_ has them
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix

@@ -151,6 +151,19 @@ void add_light_table(FeatureReport& feature_report, const LightTable& lights, Ne
         feature_report.push_back({"lights", "lights with a size", false, bsdf_sampling_only, light_table_bytes(all - lights.count)});
 }
 
+// Only emissive meshes of many triangles on their convex hull are candidates.
+void add_clearances(FeatureReport& feature_report, const LampClearances& clearances) {
+    const size_t all = clearances.lamps(), clear = clearances.clear_lamps();
+    if (all == 0) return;
+    FeatureUse boxes{"lights", "clearance boxes", clear > 0, "other objects are near the emissive meshes: shadow rays enter their BVH"};
+    if (clear > 0) {
+        boxes.why =
+            fmt::format("nothing is near {} of {} emissive meshes: shadow rays end before {}", clear, all, clear == 1 ? "it" : "them");
+        boxes.bytes = int64_t(all * sizeof(ClearanceBox));
+    }
+    feature_report.push_back(boxes);
+}
+
 void add_lights(FeatureReport& feature_report, const LightTable& lights, const EnvironmentTable& environment, const Environment& e,
                 NeeLights aim) {
     add_light_table(feature_report, lights, aim);
@@ -196,6 +209,7 @@ FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize&
     add_trees(feature_report, geometry_.largest_instanced_mesh(), accel_.compact_triangles());
     add_textures(feature_report, materials_.textures, expanded);
     add_lights(feature_report, lights_, environment_, expanded.environment, aim_);
+    add_clearances(feature_report, clearances_);
     return feature_report;
 }
 

@@ -200,6 +200,7 @@ void RenderScene::update_accel(const Workers& workers) {
     const bool all = changed_.objects || changed_.origin || changed_.alpha || changed_.masks,
                area_lights = changed_.area_lights || changed_.spheres;
     if (!all && !area_lights) return;
+    changed_.bvh = true;
     if (!all && accel_.has_area_light_bvh())
         return accel_.commit_area_lights(geometry_.accel_area_lights(objects_, masks_), accel_spheres(), &tables_, workers);
     AccelScene accel = has_geometry_ ? geometry_.accel_scene(objects_, used_.alpha, masks_) : AccelScene{};

@@ -281,4 +281,21 @@ IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p
     return in;
 }
 
+// The length of a shadow ray from `o` along the unit vector `d`; at most `distance`. `outward`: it leads to the front of the light. A
+// triangle on the convex hull of its mesh is not hidden by this mesh: in the clearance box, nothing blocks the ray, so it ends where it
+// enters the box (lamp_clearance.h).
+template <class F> F distance_before_lamp(const LightTables& lights, const Int<F>& light, const Vec<F>& o, const Vec<F>& d,
+                                          const F& distance, const Mask<F>& outward) {
+    const Int<F> clearance = gather_field(lights.lights, &LightRecord::clearance, light);
+    const Mask<F> on_hull = outward && as_mask(clearance >= 0);
+    if (!any(on_hull)) return distance;
+    const Int<F> box = select(on_hull, clearance, Int<F>(0));
+    const Vec<F> low = gather_field3<F>(lights.clearances, &ClearanceBox::low, box);
+    const Vec<F> high = gather_field3<F>(lights.clearances, &ClearanceBox::high, box);
+    const auto enter = [](const F& from, const F& along, const F& a, const F& b) { return (select(along > F(0.f), a, b) - from) / along; };
+    const F entry = max(enter(o.x, d.x, low.x, high.x), max(enter(o.y, d.y, low.y, high.y), enter(o.z, d.z, low.z, high.z)));
+    // A receiver in the box has no entry. Rounding must not end the ray before the box.
+    return select(on_hull && entry > F(0.f), min(F(entry * (1.f + 0x1p-20f)), distance), distance);
+}
+
 } // namespace blush::inline BLUSH_ISA

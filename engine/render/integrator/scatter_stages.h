@@ -102,6 +102,10 @@ template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(
     out.connects = light.valid && lit && same_side && has_light(out.direct);
     out.shadow = {from, wi_world};
     out.shadow_distance = select(light.infinite, F(infinity), distance * (1.f - 4e-7f));
+    if constexpr (S.has(Feature::emissive_triangles))
+        if (scene.lights.clearances)
+            out.shadow_distance = distance_before_lamp<F>(scene.lights, light.light, from, wi_world, out.shadow_distance,
+                                                          out.connects && dot(rough_to, light.normal) < F(0.f));
 }
 
 // A sampled direction of the path.

@@ -189,6 +189,22 @@ TEST(FeatureReport, BsdfSamplingAloneHasNoSamplingTables) {
     EXPECT_FALSE(line(lit.feature_report(), "lights", "lights with a size").used);
 }
 
+TEST(FeatureReport, ClearanceBoxesAreListedIfAnEmissiveMeshMayHaveOne) {
+    const char* name = "clearance boxes";
+    Scene scene = bare();
+    place(scene, cube(false), emitter(1), at({0, 2, 0}, 0.5f));
+    EXPECT_THROW(line(Compiled(scene).feature_report(), "lights", name), std::runtime_error) << "too few triangles";
+    place(scene, sphere(false), emitter(1), at({3, 0.2f, 0}, 0.5f));
+    place(scene, quad({2, 0, 1}, {4, 0, 1}, {4, 0, -1}, {2, 0, -1}), lambert(0.5f));
+    const FeatureUse hemmed_in = line(Compiled(scene).feature_report(), "lights", name);
+    EXPECT_FALSE(hemmed_in.used);
+    place(scene, sphere(false), emitter(1), at({0, 4, 0}, 0.5f));
+    const FeatureUse clear = line(Compiled(scene).feature_report(), "lights", name);
+    EXPECT_TRUE(clear.used);
+    EXPECT_EQ(clear.why, "nothing is near 1 of 2 emissive meshes: shadow rays end before it");
+    EXPECT_EQ(clear.bytes, 2 * 24);
+}
+
 TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
     for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {64, 32}, {500, 250}}) {
         Environment e;
