@@ -68,8 +68,8 @@ public:
     // average (sample_allocation.h), whatever `first`.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
-    // Runs the pilot of path reuse if the settings need one and it has not run (reuse_choice.h); some 10 ms. Otherwise render() does so
-    // before the second sample at full resolution. False if stopped.
+    // Runs the pilots of path reuse and smooth edges if the settings need them and they have not run (reuse_choice.h, edge_choice.h).
+    // Otherwise render() does so before the second sample at full resolution. False if stopped.
     bool decide(const std::function<bool()>& wanted = {});
 
     // The film so far, divided by its sample counts. The second overload reuses the memory of an old frame and does not estimate
