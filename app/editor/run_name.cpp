@@ -28,6 +28,7 @@ std::string settings_difference(const RenderSettings& before, const RenderSettin
     add(before.filter != after.filter, fmt::format("Filter {}", to_string(after.filter)));
     add(before.adaptive != after.adaptive, on_off("Adaptive sampling", after.adaptive));
     add(before.reuse != after.reuse, fmt::format("Path reuse {}", reuse_text(after.reuse)));
+    add(before.smooth_edges != after.smooth_edges, on_off("Smooth edges", after.smooth_edges));
     add(before.clamp != after.clamp, "Clamp " + to_string(after.clamp));
     add(before.mis_compensation != after.mis_compensation, on_off("MIS compensation", after.mis_compensation));
     add(before.energy_compensation != after.energy_compensation, on_off("Energy compensation", after.energy_compensation));

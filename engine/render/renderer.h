@@ -68,9 +68,9 @@ public:
     // average (sample_allocation.h), whatever `first`.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
-    // Runs the pilots of learned visibility and path reuse if the scene and settings need them and they have not run
-    // (visibility_choice.h, reuse_choice.h); some 10 ms. Otherwise render() does so before the second sample at full resolution.
-    // False if stopped.
+    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path reuse and
+    // smooth edges (visibility_choice.h, portal_choice.h, reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
+    // sample at full resolution. False if stopped.
     bool decide(const std::function<bool()>& wanted = {});
 
     // The film so far, divided by its sample counts. The second overload reuses the memory of an old frame and does not estimate

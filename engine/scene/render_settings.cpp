@@ -9,6 +9,7 @@ RenderSettings recommended_settings() {
     settings.adaptive = true;
     settings.reuse = reuse_auto;
     settings.mis_compensation = true;
+    settings.smooth_edges = true;
     return settings;
 }
 

@@ -61,6 +61,7 @@ struct RenderSettings {
     bool energy_compensation = false;
     bool mis_compensation = false; // light sampling leaves out what BSDF sampling covers (environment_table.h); needs Strategy::mis
     bool adaptive = false;         // adaptive sampling; spp is then the mean. Requires first_sample = 0
+    bool smooth_edges = false;     // more camera rays at edges of visible emitters, where a pilot finds that they pay (edge_choice.h)
     int reuse = 1;                 // path reuse: pixels that share their second path vertices: 4, 8, 16, 1 (off), or reuse_auto
     Clamp clamp = {};
     ImageRegion region = {}; // only this is rendered, without adaptive sampling; the rest of the image stays empty

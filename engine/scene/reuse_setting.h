@@ -3,6 +3,6 @@
 
 namespace blush {
 
-constexpr int reuse_auto = 0; // decided for each image (render/film/reuse_choice.h)
+constexpr int reuse_auto = 0; // decided for each image (render/pilots/reuse_choice.h)
 
 } // namespace blush

@@ -230,7 +230,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetScene
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
-    switch (whole(rng, 0, 10)) {
+    switch (whole(rng, 0, 11)) {
     case 0: r.max_bounces = whole(rng, 0, 6); break;
     case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
     case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
@@ -242,6 +242,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 8: r.sampler = SamplerType(whole(rng, 0, 1)); break;
     case 9: r.clamp = {uniform(rng, 0, 2), whole(rng, 0, 1) == 1}; break;
     case 10: r.mis_compensation = !r.mis_compensation; break;
+    case 11: r.smooth_edges = !r.smooth_edges; break;
     }
     return SetRender{r};
 }

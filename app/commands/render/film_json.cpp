@@ -3,8 +3,8 @@
 #include "io/image/lossless_channels.h"
 #include "io/project/json_fields.h"
 #include "render/diagnostics/health_recorder.h"
-#include "render/film/reuse_choice.h"
 #include "render/light_mix/light_groups.h"
+#include "render/pilots/reuse_choice.h"
 
 #include <algorithm>
 #include <array>

@@ -117,6 +117,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["mis_compensation"] = s.mis_compensation;
     json["adaptive"] = s.adaptive;
     json["reuse"] = reuse_text(s.reuse);
+    json["smooth_edges"] = s.smooth_edges;
     json["clamp"] = to_string(s.clamp);
     json["region"] = {s.region.x, s.region.y, s.region.width, s.region.height};
     return json_text(json);
@@ -177,6 +178,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
         {"mis_compensation", plain(s.mis_compensation)},
         {"adaptive", plain(s.adaptive)},
         {"reuse", word(s.reuse, parse_reuse)},
+        {"smooth_edges", plain(s.smooth_edges)},
         {"clamp", word(s.clamp, parse_clamp)},
         {"region", numbers<4>([&s](const auto& n) {
              s.region = {n[0], n[1], n[2], n[3]};

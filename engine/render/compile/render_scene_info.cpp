@@ -36,6 +36,16 @@ void RenderScene::update_warnings() {
     if (!warnings_ || *warnings_ != warnings) warnings_ = std::make_shared<const std::vector<Diagnostic>>(std::move(warnings));
 }
 
+bool RenderScene::camera_sees_emission() const {
+    const auto seen = [](uint32_t mask) { return (mask & camera_ray_mask) != 0; };
+    const auto emits = [&](const MeshPart& part) { return std::ranges::find(used_.emissive, part.material) != used_.emissive.end(); };
+    for (size_t i = 0; i < objects_.size(); ++i)
+        if (seen(masks_[i]) && std::ranges::any_of(objects_[i].parts, emits)) return true;
+    return features_.has(Feature::unlit) || std::ranges::any_of(sphere_masks_, seen) ||
+           std::ranges::any_of(lights_.suns, [&](int32_t sun) { return !(lights_.records[size_t(sun)].flags & light_hidden); }) ||
+           (has_environment_map_ && tables_.environment.visible_to_camera);
+}
+
 CompiledInfo RenderScene::info() const {
     CompiledInfo info;
     info.materials = int64_t(materials_.ids.size());

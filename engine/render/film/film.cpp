@@ -230,6 +230,21 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
     if (!findings.fireflies.empty()) health_.add_fireflies(findings.fireflies);
 }
 
+void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, const EdgePixels& pixels, double sign) {
+    for (int slot = 0; slot < job.paths(); ++slot) {
+        const int x = job.x + slot % job.width, y = job.y + slot / job.width;
+        const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
+        HalfBuffer& half = half_buffers_[2 * pixel];
+        if (!pixels.has(x, y) || half.count == 0) continue;
+        const auto add = [&](Vec3d& sum, const auto& c) { sum = sum + Vec3d{c.r[slot], c.g[slot], c.b[slot]} * sign; };
+        half.r += sign * tile.r[slot];
+        half.g += sign * tile.g[slot];
+        half.b += sign * tile.b[slot];
+        if (bounces_.planes() > 0) add(bounces_.sum(place_of(pixel, 0), 0), tile);
+        for (int k = 0; k < groups_.groups(); ++k) add(groups_.sum(pixel, 0, size_t(k)), tile.groups->all[size_t(k)]);
+    }
+}
+
 void Film::add_caught(size_t place, const TileScratch& tile, const CatcherColumns& caught, int slot, const Vec3d& radiance) {
     if (!caught.caught[slot]) return;
     CaughtSums& sums = caught_[place];

@@ -6,6 +6,7 @@
 #include "render/error/error_estimate.h"
 #include "render/film/bounce_planes.h"
 #include "render/film/clamp_stats.h"
+#include "render/film/edge_pixels.h"
 #include "render/film/film_size.h"
 #include "render/film/group_planes.h"
 #include "render/film/shadow_catcher.h"
@@ -70,6 +71,10 @@ public:
     // Thread-safe. `caught`: for a film with a shadow catcher.
     void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {},
              const CatcherColumns* caught = nullptr);
+
+    // Adds `sign` times the tile's radiance, emission at first hits, to the first sample of these pixels, which the film must hold;
+    // where it was dropped, nothing.
+    void add_to_first_sample(const TileJob& job, const TileScratch& tile, const EdgePixels& pixels, double sign);
 
     // Sum of the samples of half `half` of a pixel, with the groups' gains applied.
     Vec3d sum(size_t pixel, int half) const {

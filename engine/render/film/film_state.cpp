@@ -3,8 +3,8 @@
 #include "render/compile/expanded_lights.h"
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_planes.h"
-#include "render/film/reuse_choice.h"
 #include "render/light_mix/light_groups.h"
+#include "render/pilots/reuse_choice.h"
 
 #include <algorithm>
 #include <exception>

@@ -24,6 +24,7 @@ RenderSettings unusual_settings() {
     s.energy_compensation = true;
     s.mis_compensation = true;
     s.reuse = 8;
+    s.smooth_edges = true;
     s.clamp = {2.5f, true};
     s.region = {0.25f, 0.125f, 0.5f, 0.375f};
     return s;

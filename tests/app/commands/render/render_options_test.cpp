@@ -62,6 +62,8 @@ std::vector<std::string> every_option() {
             "off",
             "--reuse",
             "16",
+            "--smooth-edges",
+            "off",
             "--clamp",
             "4,all",
             "--filter",
@@ -105,6 +107,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.mis_compensation = false;
     expected.adaptive = false;
     expected.reuse = 16;
+    expected.smooth_edges = false;
     expected.clamp = {4, true};
     expected.filter = PixelFilter::box;
     expected.sampler = SamplerType::random;
@@ -192,6 +195,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--sampler", "halton"},
                                                       {"--energy-compensation", "maybe"},
                                                       {"--mis-compensation", "maybe"},
+                                                      {"--smooth-edges", "maybe"},
                                                       {"--reuse", "3"},
                                                       {"--filter", "gauss"},
                                                       {"--samples", "8:4"},

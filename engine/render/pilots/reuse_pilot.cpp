@@ -1,9 +1,9 @@
-#include "render/film/reuse_pilot.h"
+#include "render/pilots/reuse_pilot.h"
 
-#include "render/film/pilot_tiles.h"
-#include "render/film/reuse_choice.h"
-#include "render/film/variant_comparison.h"
 #include "render/integrator/reuse_groups.h"
+#include "render/pilots/pilot_tiles.h"
+#include "render/pilots/reuse_choice.h"
+#include "render/pilots/variant_comparison.h"
 
 #include <array>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace blush {
 namespace {
 
-constexpr uint32_t pilot_seed = 0x9110737e; // any; it only has to differ from those of images
+constexpr uint32_t reuse_pilot_seed = 0x9110737e; // any; it only has to differ from those of images
 
 // Usual time, relative to a camera or bounce ray (variant_comparison.cpp).
 constexpr double connection_cost = 0.25;
@@ -39,7 +39,7 @@ PairsOfSizes compare(const Variant& apart, const std::vector<Variant>& shared, d
 std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     KernelContext apart = context;
-    apart.seed = pilot_seed;
+    apart.seed = reuse_pilot_seed;
     apart.settings.reuse = {};
     std::vector<KernelContext> sizes(automatic_group_sizes.size(), apart);
     for (size_t k = 0; k < sizes.size(); ++k)

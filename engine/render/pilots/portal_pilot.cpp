@@ -1,7 +1,7 @@
-#include "render/film/portal_pilot.h"
+#include "render/pilots/portal_pilot.h"
 
-#include "render/film/pilot_tiles.h"
-#include "render/film/variant_comparison.h"
+#include "render/pilots/pilot_tiles.h"
+#include "render/pilots/variant_comparison.h"
 
 #include <array>
 #include <utility>

@@ -1,5 +1,5 @@
 // The pilot of learned visibility: what it gains, that it does not depend on how the image is rendered, and that it adds no bias.
-#include "render/film/visibility_pilot.h"
+#include "render/pilots/visibility_pilot.h"
 
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"

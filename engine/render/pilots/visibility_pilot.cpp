@@ -1,6 +1,6 @@
-#include "render/film/visibility_pilot.h"
+#include "render/pilots/visibility_pilot.h"
 
-#include "render/film/pilot_tiles.h"
+#include "render/pilots/pilot_tiles.h"
 
 #include <utility>
 

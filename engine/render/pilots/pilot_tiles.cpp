@@ -1,4 +1,4 @@
-#include "render/film/pilot_tiles.h"
+#include "render/pilots/pilot_tiles.h"
 
 #include <algorithm>
 #include <cmath>

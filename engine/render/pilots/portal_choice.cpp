@@ -1,4 +1,4 @@
-#include "render/film/portal_choice.h"
+#include "render/pilots/portal_choice.h"
 
 #include "render/compile/render_scene.h"
 

@@ -1,4 +1,4 @@
-#include "render/film/variant_comparison.h"
+#include "render/pilots/variant_comparison.h"
 
 #include "render/bvh/small_scene.h"
 
@@ -9,11 +9,6 @@
 namespace blush {
 namespace {
 
-constexpr double dark_squared = 0.01; // as in relmse
-
-// Usual time of parts of the work, relative to a camera or bounce ray with its shading, of 0.1 us: from the profiles by stage of the
-// shipped scenes (stage_times.h).
-constexpr double shadow_ray_cost = 0.3;
 constexpr double small_scene_cost = 0.65; // factor on paths where no BVH is needed (small_scene.h)
 
 } // namespace

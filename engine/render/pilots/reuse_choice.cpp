@@ -1,4 +1,4 @@
-#include "render/film/reuse_choice.h"
+#include "render/pilots/reuse_choice.h"
 
 #include "render/compile/render_scene.h"
 

@@ -1,4 +1,4 @@
-#include "render/film/visibility_choice.h"
+#include "render/pilots/visibility_choice.h"
 
 #include "render/compile/render_scene.h"
 

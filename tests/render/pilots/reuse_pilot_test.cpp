@@ -1,11 +1,11 @@
 // The pilot of path reuse: its decision, that the decision does not depend on how the image is rendered, and that it adds no bias.
-#include "render/film/reuse_pilot.h"
+#include "render/pilots/reuse_pilot.h"
 
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
-#include "render/film/reuse_choice.h"
 #include "render/integrator/kernel_settings.h"
+#include "render/pilots/reuse_choice.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/images.h"

@@ -3,7 +3,7 @@
 
 #include "render/compile/feature_report.h"
 #include "render/compile/scene_tables.h"
-#include "render/film/portal_pilot.h"
+#include "render/pilots/portal_pilot.h"
 #include "scene/render_settings.h"
 
 #include <cstdint>

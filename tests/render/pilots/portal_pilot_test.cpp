@@ -1,5 +1,5 @@
 // The pilot of learned portals: what it gains, that it does not depend on how the image is rendered, and that it adds no bias.
-#include "render/film/portal_pilot.h"
+#include "render/pilots/portal_pilot.h"
 
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"

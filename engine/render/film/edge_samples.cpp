@@ -1,0 +1,113 @@
+#include "render/film/edge_samples.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr uint32_t edge_seed = 0x5a1e7d3bu; // any
+
+// As the film checks samples (film.cpp).
+bool is_valid(const Vec3d& e) {
+    constexpr double largest = double(std::numeric_limits<float>::max());
+    return e.x >= 0 && e.y >= 0 && e.z >= 0 && std::max({e.x, e.y, e.z}) <= largest;
+}
+
+// Of `count` slots from `slot` on.
+template <class Columns> Vec3d mean_of(const Columns& c, int slot, int count) {
+    Vec3d sum{0, 0, 0};
+    for (int k = slot; k < slot + count; ++k) sum = sum + Vec3d{c.r[k], c.g[k], c.b[k]};
+    return sum * (1.0 / count);
+}
+
+// The difference with the old emission is not negative: the radiance is a sum that began with it.
+template <class Columns> void replace(Columns& c, int slot, const Vec3d& before, const Vec3d& now) {
+    c.r[slot] = c.r[slot] - before.x + now.x;
+    c.g[slot] = c.g[slot] - before.y + now.y;
+    c.b[slot] = c.b[slot] - before.z + now.z;
+}
+
+void fit_groups(const TileScratch& tile, TileScratch& emission) {
+    if (!tile.groups)
+        emission.groups.reset();
+    else if (!emission.groups || emission.groups->count() != tile.groups->count())
+        emission.groups = std::make_unique<GroupColumns>(tile.groups->count(), false);
+}
+
+// One sample of a tile: `own_slot` and `more_slot` are those of its emission.
+void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, int own_slot, int more_slot) {
+    const TileScratch &own = scratch.own, &more = scratch.more;
+    const Vec3d before = mean_of(own, own_slot, 1), now = mean_of(more, more_slot, edge_samples);
+    if (!is_valid(before) || !is_valid(now)) return;
+    replace(tile, slot, before, now);
+    if (tile.bounces)
+        for (int k = 0; k < tile.bounces->recorded; ++k) replace(tile.bounces->after[size_t(k)], slot, before, now);
+    if (!tile.groups) return;
+    for (size_t k = 0; k < tile.groups->all.size(); ++k) {
+        const Vec3d group_before = mean_of(own.groups->all[k], own_slot, 1),
+                    group_now = mean_of(more.groups->all[k], more_slot, edge_samples);
+        replace(tile.groups->all[k], slot, group_before, group_now);
+        if (tile.groups->has_direct && !tile.groups->direct.empty()) replace(tile.groups->direct[k], slot, group_before, group_now);
+    }
+}
+
+// Pixels [x, x + width) of a row of a tile.
+struct Run {
+    int x, y, width;
+};
+
+// For its samples `first`, `first` + step, ... of the tile, which are in one half of the film.
+void refine_half(const KernelContext& context, const Kernel& kernel, const Run& run, const TileJob& job, int first, int step,
+                 TileScratch& tile, EdgeScratch& scratch) {
+    const int count = (job.samples - first + step - 1) / step;
+    const int64_t sample = job.sample(first), half = sample & 1;
+    KernelContext apart = context;
+    apart.seed ^= edge_seed;
+    const TileJob more{run.x, run.y, run.width, 1, 2 * (sample >> 1) * edge_samples + half, count * edge_samples, 2};
+    kernel.render(apart, more, scratch.more);
+    for (int x = 0; x < run.width; ++x)
+        for (int k = 0; k < count; ++k) {
+            const int s = first + k * step, pixel = (run.y - job.y) * job.width + run.x - job.x + x;
+            refine_sample(tile, pixel * job.samples + s, scratch, x * job.samples + s, (x * count + k) * edge_samples);
+        }
+}
+
+void refine_run(const KernelContext& context, const Kernel& kernel, const Run& run, const TileJob& job, TileScratch& tile,
+                EdgeScratch& scratch) {
+    TileJob own = job;
+    own.x = run.x;
+    own.y = run.y;
+    own.width = run.width;
+    own.height = 1;
+    kernel.render(context, own, scratch.own);
+    const int halves = job.stride % 2 == 0 ? 1 : 2;
+    for (int half = 0; half < std::min(halves, job.samples); ++half) refine_half(context, kernel, run, job, half, halves, tile, scratch);
+}
+
+} // namespace
+
+void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,
+                     EdgeScratch& scratch) {
+    if (pixels.count() == 0) return;
+    context.settings.max_bounces = 0;
+    context.settings.reuse = {};
+    fit_groups(tile, scratch.own);
+    fit_groups(tile, scratch.more);
+    const int longest = std::max(1, tile_capacity / (job.samples * edge_samples));
+    for (int y = job.y; y < job.y + job.height; ++y)
+        for (int x = job.x; x < job.x + job.width; ++x) {
+            const int begin = x;
+            while (x < job.x + job.width && x - begin < longest && pixels.has(x, y)) ++x;
+            if (x > begin) refine_run(context, kernel, {begin, y, x-- - begin}, job, tile, scratch);
+        }
+    for (TileScratch* used : {&scratch.own, &scratch.more}) {
+        tile.camera_rays += std::exchange(used->camera_rays, 0);
+        tile.bounce_rays += std::exchange(used->bounce_rays, 0); // behind panes
+        const StageTicks spent = std::exchange(used->stages, {});
+        for (size_t k = 0; k < spent.of.size(); ++k) tile.stages.of[k] += spent.of[k];
+    }
+}
+
+} // namespace blush

@@ -1,0 +1,39 @@
+// Pilot of smooth edges: finds the pixels in which more samples of the emission at the first hit pay.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/film/edge_pixels.h"
+#include "render/kernels/kernel.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace blush {
+
+// At an edge of an emitter a sample has the emission E with probability a, the coverage, or else the light R that the path finds
+// beyond the edge. With M samples of the emission for each path (edge_samples.h) its variance is
+//
+//     a (1 - a) (E - R)^2   before,      a (1 - a) (R^2 + E^2 / M)   after.
+//
+// It falls only if E is more than 2 R / (1 - 1 / M): otherwise the light on both sides partly cancels, and separate samples do not. In
+// general, with V the variance of the emission alone,
+//
+//     gain = V (1 - 1 / M - 2 R / E).
+//
+// A pixel is taken if its gain, as a share of the image's MSE plus as a share of its relMSE, exceeds twice its additional work as a
+// share of the image's work: then MSE x relMSE x work^2 of the image falls.
+//
+// Three renders with a seed of their own find this out, so the result does not depend on the samples of the image: the emission of the
+// whole film, one sample per pixel; and an image of a quarter of its width and height, two samples per pixel, for R, the noise and the
+// work of paths. Pixels whose neighbours differ enough in emission, E, then take some
+// samples each for V. Work is counted in rays, not
+// in time: the result is the same for any number of threads and any instruction set.
+//
+// `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if needed. Empty if
+// `wanted` returned false.
+std::optional<EdgePixels> find_edge_pixels(const KernelContext& context, const Kernel& kernel, const Workers& workers,
+                                           std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
+
+} // namespace blush

@@ -1,0 +1,167 @@
+// What a Renderer holds, for the files that implement it.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "render/film/edge_samples.h"
+#include "render/film/film.h"
+#include "render/film/film_columns.h"
+#include "render/film/pilot_variance.h"
+#include "render/film/sample_allocation.h"
+#include "render/film/shadow_catcher.h"
+#include "render/pilots/edge_choice.h"
+#include "render/pilots/portal_choice.h"
+#include "render/pilots/reuse_choice.h"
+#include "render/pilots/visibility_choice.h"
+#include "render/renderer.h"
+#include "render/tile_shape.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blush {
+
+struct Renderer::State {
+    using Clock = std::chrono::steady_clock;
+
+    RendererOptions options;
+    Workers workers;
+    std::vector<std::unique_ptr<TileScratch>> scratch;
+    std::vector<std::unique_ptr<TileScratch>> replays; // for invalid samples
+    std::vector<std::unique_ptr<CatcherScratch>> catching;
+    std::vector<std::unique_ptr<EdgeScratch>> at_edges;
+    RenderScene scene;
+    std::optional<Scene> expanded;
+    ExpandedMeshes meshes;
+    RenderSettings settings;
+    LightGroupsPtr groups; // null: no light mix
+    Mixing mixing;         // of the groups
+    Film film;
+    SampleAllocation sample_allocation; // only for adaptive sampling, like the next
+    PilotVariance pilot_variance;
+    ReuseChoice reuse; // of the scene and settings
+    EdgeChoice edges;  // likewise, as the next two
+    VisibilityChoice visibility;
+    PortalChoice portals;
+    bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
+    bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered without smooth edges
+    int divider = 1;
+    const Kernel* kernel = nullptr;
+    std::string kernel_name;
+    double seconds_setup = 0;
+    // Computed on request: it reads every triangle, too slow during a drag.
+    std::optional<CompiledInfo> info;
+    std::shared_ptr<const FeatureReport> feature_report; // null: must be computed
+    int64_t samples = 0;
+    RayCounts rays;
+    StageSeconds stages; // since the film was cleared
+    std::vector<PathCounts> path_counts;
+    int64_t truncated = 0;
+
+    explicit State(const RendererOptions& o)
+        : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()), replays(workers.threads()),
+          catching(workers.threads()), at_edges(workers.threads()) {}
+
+    int film_width() const { return std::max(1, settings.width / divider); }
+    int film_height() const { return std::max(1, settings.height / divider); }
+    // Without its seed. `tables` of the scene.
+    KernelContext context_for(const SceneTables& tables, int width, int height) const;
+    // With what the pilots have learned, for a sample of this index at full resolution.
+    SceneTables learned_tables(int64_t sample) const { return portals.tables(visibility.tables(scene.tables(), sample), sample); }
+    int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(sample) : reuse.first_group_size(); }
+
+    FilmSize full_film() const {
+        return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
+    }
+    // If the scene differs from the film only in the light mix, applies the mix and returns true.
+    bool apply_mix(const Scene& whole, const RenderSettings& now) {
+        if (!groups || !same_image(settings, now)) return false;
+        std::optional<Mixing> mix = mixing_of(*groups, whole);
+        if (!mix) return false;
+        set_mix(*std::move(mix));
+        settings = now;
+        return true;
+    }
+    void set_mix(Mixing mix) {
+        mixing = std::move(mix);
+        film.set_gains(mixing.gains);
+    }
+    // Updates the compiled scene; true if the film is outdated.
+    bool compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene);
+    // Discards the samples; their setup began at `begun`.
+    void begin_film(Clock::time_point begun);
+
+    bool hides_environment() const {
+        const Environment& e = expanded->environment;
+        return e.kind != Environment::Kind::none && !e.visible_to_camera;
+    }
+    bool catches() const { return !scene.catchers().empty(); }
+    // A caught shadow needs a background: without an environment the image is for compositing.
+    bool transparent() const {
+        return expanded && (hides_environment() || (catches() && expanded->environment.kind == Environment::Kind::none));
+    }
+
+    void clear() {
+        film_is_stale = true;
+        film_is_uneven = false;
+        first_is_rough = false;
+        feature_report.reset();
+        samples = 0;
+        rays = {};
+        stages = {};
+        path_counts.clear();
+        truncated = 0;
+    }
+    // Clearing a full-size film takes as long as rendering a coarse image, so it is delayed until the next draw or read: edits
+    // often change the divider afterwards.
+    void clear_stale_film() {
+        if (!film_is_stale) return;
+        FilmSize size = full_film();
+        size.width = film_width();
+        size.height = film_height();
+        film.reset(size, settings.clamp);
+        film.set_gains(mixing.gains);
+        sample_allocation.reset(film_width(), film_height());
+        film_is_stale = false;
+    }
+    // Samples first, first + stride, ... of a pixel, with these reuse groups.
+    struct Run {
+        int64_t first, count;
+        int stride;
+        ReuseGroups groups;
+    };
+    using Wanted = std::function<bool()>;
+    using TileTask = std::function<bool(int tile, const TileJob& rectangle, unsigned worker)>;
+    PixelRect rendered_pixels() const;
+    // Null without a shadow catcher or if stopped. The bool functions below return false if stopped before the end.
+    const CatcherColumns* shadows_of(const KernelContext& context, const TileJob& job, unsigned worker);
+    bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
+    bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
+    bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
+    bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
+    void refine_first_sample(const EdgePixels& pixels);
+    bool decide(const Wanted& wanted);
+
+    // True if the first sample of each pixel is rendered in another way than the next.
+    bool first_differs() const {
+        return divider == 1 && (visibility.pays() || portals.pays() || edges.pixels(1) || reuse_group_size(0) != reuse_group_size(1));
+    }
+    EdgeScratch& edge_scratch_of(unsigned worker) {
+        if (!at_edges[worker]) at_edges[worker] = std::make_unique<EdgeScratch>();
+        return *at_edges[worker];
+    }
+    TileScratch& scratch_of(unsigned worker) {
+        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+        fit_columns(*scratch[worker], film);
+        return *scratch[worker];
+    }
+};
+
+} // namespace blush

@@ -1,0 +1,200 @@
+// Renders samples, tile by tile.
+#include "render/diagnostics/fault_finder.h"
+#include "render/integrator/kernel_settings.h"
+#include "render/integrator/reuse_groups.h"
+#include "render/kernels/stage_timer.h"
+#include "render/pilots/edge_pilot.h"
+#include "render/pilots/portal_pilot.h"
+#include "render/pilots/reuse_pilot.h"
+#include "render/pilots/visibility_pilot.h"
+#include "render/renderer_state.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace blush {
+
+KernelContext Renderer::State::context_for(const SceneTables& tables, int width, int height) const {
+    KernelContext context{&tables, &scene.accel(), kernel_settings(settings, width, height)};
+    context.settings.filter_textures = options.filter_textures;
+    return context;
+}
+
+bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
+    const SceneTables tables = learned_tables(divider == 1 ? run.first : 0);
+    KernelContext context = context_for(tables, film.width(), film.height());
+    context.seed = settings.seed;
+    context.settings.reuse = run.groups;
+    TileScratch& tile = scratch_of(worker);
+    const Film::Diagnose diagnose = [&](int x, int y, int64_t sample) {
+        if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
+        return find_fault(context, x, y, sample, *replays[worker]);
+    };
+    const EdgePixels* pixels = divider == 1 ? edges.pixels(run.first) : nullptr;
+    job.stride = run.stride;
+    for (int64_t done = 0; done < run.count; done += job.samples) {
+        if (done > 0 && wanted && !wanted()) return false;
+        job.first_sample = run.first + done * run.stride;
+        job.samples = int(std::min<int64_t>(most_samples, run.count - done));
+        kernel->render(context, job, tile);
+        if (pixels) refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
+        StageTimer timer(tile.stages);
+        const CatcherColumns* shadows = shadows_of(context, job, worker);
+        timer.end(Stage::shadow);
+        film.add(job, tile, settings.seed, diagnose, shadows);
+        timer.end(Stage::film);
+    }
+    return true;
+}
+
+// For the tile's samples; null without a shadow catcher.
+const CatcherColumns* Renderer::State::shadows_of(const KernelContext& context, const TileJob& job, unsigned worker) {
+    if (!catches()) return nullptr;
+    if (!catching[worker]) catching[worker] = std::make_unique<CatcherScratch>();
+    catch_shadows(context, scene.catchers(), job, *catching[worker]);
+    return &catching[worker]->columns;
+}
+
+// The rendered part of the film. Path reuse needs whole groups.
+PixelRect Renderer::State::rendered_pixels() const {
+    PixelRect r = pixels_of(settings.region, film.width(), film.height());
+    if (reuse.first_group_size() <= 1) return r;
+    const ReuseGroups groups = reuse_groups(reuse.first_group_size());
+    const auto down = [](int x, int block) { return x / block * block; };
+    const auto up = [](int x, int block) { return (x + block - 1) / block * block; };
+    return {down(r.x0, groups.block_width), down(r.y0, groups.block_height), std::min(up(r.x1, groups.block_width), film.width()),
+            std::min(up(r.y1, groups.block_height), film.height())};
+}
+
+bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
+    const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
+    const PixelRect wanted_pixels = rendered_pixels();
+    const TickRate rate;
+    std::atomic<bool> cut_short{false};
+    const bool all_begun = workers.for_each(int64_t(across) * down, wanted, [&](int64_t tile, unsigned worker) {
+        const int x = int(tile % across) * shape.width, y = int(tile / across) * shape.height;
+        TileJob job;
+        job.x = std::max(x, wanted_pixels.x0);
+        job.y = std::max(y, wanted_pixels.y0);
+        job.width = std::min(x + shape.width, wanted_pixels.x1) - job.x;
+        job.height = std::min(y + shape.height, wanted_pixels.y1) - job.y;
+        if (job.width <= 0 || job.height <= 0) return;
+        if (!task(int(tile), job, worker)) cut_short = true;
+    });
+    for (const auto& used : catching)
+        if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
+    for (const auto& used : scratch) {
+        if (!used) continue;
+        const StageTicks spent = std::exchange(used->stages, {});
+        add_seconds(stages, spent, rate.seconds_per_tick());
+        rays.bounce += std::exchange(used->bounce_rays, 0);
+        rays.shadow += std::exchange(used->shadow_rays, 0);
+        rays.camera += std::exchange(used->camera_rays, 0);
+        truncated += std::exchange(used->truncated_paths, 0);
+        if (used->roulette) move_counts(used->roulette->counts, path_counts);
+    }
+    return all_begun && !cut_short;
+}
+
+// Renders the same samples for every pixel; path reuse is the same for all of them.
+bool Renderer::State::render_uniformly(int64_t first, int64_t count, const Wanted& wanted) {
+    const PixelRect pixels = rendered_pixels();
+    const ReuseGroups groups = reuse_groups(reuse_group_size(first));
+    const int64_t pixels_per_worker = int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads();
+    const TileShape shape = groups.size() > 1 ? tile_shape(groups) : tile_shape(count, pixels_per_worker);
+    return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
+        return render_run(job, {first, count, 1, groups}, shape.samples, worker, wanted);
+    });
+}
+
+// Renders the samples of each half of each tile by the sample plan.
+bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted& wanted) {
+    constexpr TileShape shape{SampleAllocation::tile_size, SampleAllocation::tile_size, 8};
+    const ReuseGroups groups = reuse_groups_of_plan(reuse_group_size(first));
+    return for_each_tile(shape, wanted, [&](int tile, const TileJob& job, unsigned worker) {
+        for (int half = 0; half < 2; ++half) {
+            const int64_t from = sample_allocation.samples(tile, half, first), to = sample_allocation.samples(tile, half, first + count);
+            if (!render_run(job, {2 * from + half, to - from, 2, groups}, shape.samples, worker, wanted)) return false;
+        }
+        return true;
+    });
+}
+
+// Smooth edges for the first sample, once the pilot has found them. A film without other samples stays as it is.
+void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
+    KernelContext context = context_for(scene.tables(), film.width(), film.height());
+    context.seed = settings.seed;
+    context.settings.reuse = {};
+    context.settings.max_bounces = 0;
+    constexpr TileShape shape{32, 32, 1};
+    for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
+        if (!pixels.any(job.x, job.y, job.width, job.height)) return true;
+        TileScratch& tile = scratch_of(worker);
+        kernel->render(context, job, tile);
+        film.add_to_first_sample(job, tile, pixels, -1);
+        refine_emission(context, *kernel, pixels, job, tile, edge_scratch_of(worker));
+        film.add_to_first_sample(job, tile, pixels, 1);
+        return true;
+    });
+    first_is_rough = false;
+}
+
+// Each pilot measures the samples as those before it have decided.
+bool Renderer::State::decide(const Wanted& wanted) {
+    if (!visibility.needs_pilot() && !portals.needs_pilot() && !reuse.needs_pilot() && !edges.needs_pilot()) return true;
+    SceneTables tables = learned_tables(1);
+    const KernelContext context = context_for(tables, settings.width, settings.height);
+    if (visibility.needs_pilot()) {
+        auto learned = learn_light_visibility(context, *kernel, workers, replays, wanted);
+        if (!learned) return false;
+        visibility.decide(*std::move(learned));
+        tables = learned_tables(1);
+    }
+    if (portals.needs_pilot()) {
+        auto pilot = learn_portals(context, *kernel, workers, replays, wanted);
+        if (!pilot) return false;
+        portals.decide(*std::move(pilot));
+        tables = learned_tables(1);
+    }
+    if (reuse.needs_pilot()) {
+        const auto measured = measure_path_reuse(context, *kernel, workers, replays, wanted);
+        if (!measured) return false;
+        reuse.decide(*measured);
+    }
+    if (edges.needs_pilot()) {
+        auto found = find_edge_pixels(context, *kernel, workers, replays, wanted);
+        if (!found) return false;
+        edges.decide(*std::move(found));
+    }
+    feature_report.reset();
+    return true;
+}
+
+bool Renderer::decide(const std::function<bool()>& wanted) { return state_->decide(wanted); }
+
+bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
+    State& s = *state_;
+    s.clear_stale_film();
+    const int64_t begin = s.settings.adaptive ? s.samples : first;
+    if (s.divider == 1 && begin + count > 1 && !s.decide(wanted)) return false;
+    for (int64_t done = 0; done < count;) {
+        const int64_t next = begin + done;
+        int64_t step = count - done;
+        // Ends where the pilot of adaptive sampling is measured, and where what the pilots decided begins.
+        if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
+        if (next == 0 && s.first_differs()) step = 1;
+        if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
+        const bool planned = s.settings.adaptive && s.sample_allocation.decided();
+        if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
+        if (next == 0) s.first_is_rough = s.divider == 1;
+        s.samples += step;
+        done += step;
+        if (!s.settings.adaptive) continue;
+        if (s.samples == SampleAllocation::pilot_samples / 2) s.pilot_variance.mark(s.film);
+        if (s.samples == SampleAllocation::pilot_samples) s.sample_allocation.decide(s.pilot_variance.measure(s.film));
+    }
+    return true;
+}
+
+} // namespace blush
