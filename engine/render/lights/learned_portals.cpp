@@ -3,7 +3,6 @@
 #include "core/math.h"
 #include "core/rec709.h"
 #include "render/lights/receiver_grid.h"
-#include "shading/environment.h"
 
 #include <algorithm>
 #include <array>

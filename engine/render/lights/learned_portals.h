@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/lights/escape_trial.h"
+#include "shading/environment.h"
 #include "shading/light.h"
 
 #include <cstdint>
