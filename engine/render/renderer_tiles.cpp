@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <tuple>
 #include <utility>
 
 namespace blush {
@@ -131,7 +132,9 @@ void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
     for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
         if (!pixels.any(job.x, job.y, job.width, job.height)) return true;
         TileScratch& tile = scratch_of(worker);
+        const auto counted = std::pair(tile.camera_rays, tile.bounce_rays); // these are no paths
         kernel->render(context, job, tile);
+        std::tie(tile.camera_rays, tile.bounce_rays) = counted;
         film.add_to_first_sample(job, tile, pixels, -1);
         refine_emission(context, *kernel, pixels, job, tile, edge_scratch_of(worker));
         film.add_to_first_sample(job, tile, pixels, 1);

@@ -103,8 +103,6 @@ void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixe
             if (x > begin) refine_run(context, kernel, {begin, y, x-- - begin}, job, tile, scratch);
         }
     for (TileScratch* used : {&scratch.own, &scratch.more}) {
-        tile.camera_rays += std::exchange(used->camera_rays, 0);
-        tile.bounce_rays += std::exchange(used->bounce_rays, 0); // behind panes
         const StageTicks spent = std::exchange(used->stages, {});
         for (size_t k = 0; k < spent.of.size(); ++k) tile.stages.of[k] += spent.of[k];
     }

@@ -25,6 +25,8 @@ struct EdgeScratch {
 // the film are one sequence of the sampler; so the halves stay independent, and a sample is the same in any range in which it is
 // rendered.
 //
+// Its rays are not counted: the number of camera rays is that of paths.
+//
 // Light groups and light by bounces get the same difference as the radiance; first hits stay those of the sample's own ray. A sample
 // stays as it is if one of its emission samples is negative or not finite.
 void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,

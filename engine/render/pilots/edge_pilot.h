@@ -26,10 +26,10 @@ namespace blush {
 // share of the image's work: then MSE x relMSE x work^2 of the image falls.
 //
 // Three renders with a seed of their own find this out, so the result does not depend on the samples of the image: the emission of the
-// whole film, one sample per pixel; and an image of a quarter of its width and height, two samples per pixel, for R, the noise and the
-// work of paths. Pixels whose neighbours differ enough in emission, E, then take some
-// samples each for V. Work is counted in rays, not
-// in time: the result is the same for any number of threads and any instruction set.
+// whole film, one sample per pixel; and an image of a quarter of its width and height and its emission, two samples per pixel, for R,
+// the noise and the work of paths. Edges take a larger share of that image, so their share of the noise is rather overestimated and
+// fewer pixels are taken. Pixels whose neighbours differ enough in emission, by E, then take some samples each for V. Work is counted in
+// rays, not in time: the result is the same for any number of threads and any instruction set.
 //
 // `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if needed. Empty if
 // `wanted` returned false.
