@@ -88,5 +88,7 @@ int main(int argc, char** argv) {
     blush::set_up_process();
     try {
         return blush::run_command_line(argc, argv);
+    } catch (const std::bad_alloc& error) {
+        return blush::failed({.what = blush::what_was_missing(error)});
     } catch (const std::exception& error) { return blush::failed({.what = error.what()}); }
 }

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <exception>
 #include <initializer_list>
-#include <new>
 #include <system_error>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -17,19 +16,19 @@ namespace {
 
 // Must not allocate: memory may be exhausted.
 [[noreturn]] void end_with_a_line() {
-    const char *cause = "unhandled exception", *what = "the program cannot continue";
+    const char *cause = "unhandled exception: ", *what = "the program cannot continue";
     try {
         if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
     } catch (const std::bad_alloc& e) {
-        cause = "not enough memory";
-        what = e.what();
+        cause = "";
+        what = what_was_missing(e);
     } catch (const std::system_error& e) { // thrown if a thread cannot be started
-        cause = "not enough threads or memory";
+        cause = "not enough threads or memory: ";
         what = e.what();
     } catch (const std::exception& e) { what = e.what(); } catch (...) {
     }
     char line[400];
-    const int length = std::snprintf(line, sizeof line, "blush: error: %s: %s\n", cause, what);
+    const int length = std::snprintf(line, sizeof line, "blush: error: %s%s\n", cause, what);
     if (length > 0) (void)!::write(STDERR_FILENO, line, std::strlen(line));
     ::_exit(1);
 }
@@ -54,6 +53,10 @@ void begin_process(int, char**, char** environment) {
 [[gnu::section(".preinit_array"), gnu::used]] void (*const run_first)(int, char**, char**) = begin_process;
 
 } // namespace
+
+const char* what_was_missing(const std::bad_alloc& e) noexcept {
+    return std::strcmp(e.what(), std::bad_alloc().what()) == 0 ? "not enough memory" : e.what();
+}
 
 void set_up_process() {
     std::signal(SIGXFSZ, SIG_IGN);

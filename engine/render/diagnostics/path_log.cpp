@@ -129,6 +129,9 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
                      "is worth",
                      settings.reuse);
+        if (settings.smooth_edges)
+            log.line("smooth edges: in a pixel at the edge of an emitter the film takes more camera rays for emission; alone this path is "
+                     "worth");
         log.line("radiance {}", rgb(radiance));
         if (!is_valid_radiance(radiance)) {
             const Fault fault = find_fault(context, x, y, sample, scratch);

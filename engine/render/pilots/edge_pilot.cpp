@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "render/film/edge_samples.h"
+#include "render/pilots/pilot_tiles.h"
 #include "render/pilots/variant_comparison.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ public:
         : context_(context), kernel_(kernel), workers_(workers), scratch_(scratch), wanted_(wanted) {
         context_.seed = edge_pilot_seed;
         context_.settings.reuse = {};
+        context_.settings.max_bounces = pilot_max_bounces;
         emission_ = context_;
         emission_.settings.max_bounces = 0;
         for (auto& s : scratch_)

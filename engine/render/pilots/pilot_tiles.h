@@ -9,7 +9,7 @@ namespace blush {
 
 constexpr int pilot_tile_side = 8; // small, so that there are many; a whole block of path reuse groups
 constexpr int pilot_samples = 8;   // of each pixel, both halves together
-// Of pilots that learn where light comes from, whatever the image's limit: so light by bounces (bounce_planes.h) stays that of shorter
+// Of pilots that change how light is sampled, whatever the image's limit: so light by bounces (bounce_planes.h) stays that of shorter
 // paths.
 constexpr int pilot_max_bounces = 8;
 

@@ -159,7 +159,7 @@ constexpr DocumentedLimit documented_limits[] = {
     {"absorbing sheet 1e-7 as thick as wide", 1},
     {"coarse ball with shading normals, half lit", 0.105716},
     {"two coincident lights", 0.4390},
-    {"dark room at the edge of a wide world", 0.02531213226128178},
+    {"dark room at the edge of a wide world", 0.024264559782213584},
     {"closed ball of radius 1e-10 m", 1024},
     {"closed ball of radius 1e12 m", 500},
     {"camera 0.3 m beside the metres at 1e7 m", 0.6501},

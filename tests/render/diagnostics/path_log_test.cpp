@@ -44,6 +44,14 @@ TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
     EXPECT_GT(lit, 5);
 }
 
+TEST(PathLog, MentionsSmoothEdges) {
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    EXPECT_EQ(trace_sample(shipped_scene("cornell"), settings, 9, 6, 2).find("smooth edges"), std::string::npos);
+    settings.smooth_edges = true;
+    EXPECT_NE(trace_sample(shipped_scene("cornell"), settings, 9, 6, 2).find("smooth edges"), std::string::npos);
+}
+
 TEST(PathLog, MentionsPathReuse) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings;
