@@ -153,8 +153,8 @@ void print_info(const InfoCommand& c, const LoadedScene& loaded, const Findings&
                    s->full_mpaths_per_s, s->ratio);
     for (const FeatureUse& use : info.features)
         if (const auto& p = use.pilot)
-            fmt::print("{:<22} {} in groups of {}: MSE x {:.3f}, relMSE x {:.3f}, of a typical tile x {:.3f}, work x {:.3f}\n", "pilot",
-                       use.name, p->group_size, p->mse, p->relmse, p->typical, p->work);
+            fmt::print("{:<22} {}{}: MSE x {:.3f}, relMSE x {:.3f}, of a typical tile x {:.3f}, work x {:.3f}\n", "pilot", use.name,
+                       p->group_size > 0 ? fmt::format(" in groups of {}", p->group_size) : "", p->mse, p->relmse, p->typical, p->work);
     print_uses("with", info.features, true);
     print_uses("left out", info.features, false);
     fmt::print("{:<22} {:.1f} MB, {:.2f} s to load, {:.2f} s to set up\n", "cost", info.memory_mb, loaded.report.seconds,
@@ -189,8 +189,9 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_flag("--measure", command->measure,
                   "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "
-                  "for a few seconds, "
-                  "the start-up time of the view transform and of the denoiser, and what path reuse gains and costs");
+                  "for a few seconds, the start-up time of the view transform and of the denoiser, and what path reuse, learned "
+                  "visibility, learned portals "
+                  "and smooth edges gain and cost");
     add_scene_selection_options(*sub, command->overrides.scene_selection);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_info(*command); }; });
