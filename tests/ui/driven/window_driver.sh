@@ -128,9 +128,10 @@ move_by() { point_at $(($(number 1 mouse_x) + $1)) $(($(number 1 mouse_y) + $2))
 typing() { state typing true; } # a text field has the keyboard
 # double_click WIDGET: begins typing into a field.
 double_click() {
-    started() { typing || { input 4 xdotool click --repeat 2 --delay 60 1 && typing; }; } # between two late frames, clicks are lost
+    local field=$1
+    # Between two late frames, clicks are lost. A third click within 0.3 s would not begin another double-click.
+    started() { typing || { point_at $(middle "$field") && input 4 xdotool click --repeat 2 --delay 60 1 && { typing || sleep 0.4; } && typing; }; }
     until_true 30 has_widget "$1" || fail "there is no $1 to type into"
-    point_at $(middle "$1")
     until_true 30 started || fail "a double-click into $1 does not begin typing"
 }
 type_text() {
