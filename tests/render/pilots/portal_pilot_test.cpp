@@ -4,6 +4,7 @@
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/integrator/kernel_settings.h"
+#include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/images.h"
@@ -60,27 +61,11 @@ RenderSettings settings_of(int64_t spp) {
     return settings;
 }
 
-FeatureUse line_of(Renderer& renderer) {
-    const auto report = renderer.feature_report();
-    const auto found = std::ranges::find(*report, "learned portals", &FeatureUse::name);
-    return found == report->end() ? FeatureUse{} : *found;
-}
+constexpr const char* feature = "learned portals";
+FeatureUse line_of(Renderer& renderer) { return feature_line(renderer, feature); }
 
-// After the pilot, if there is one.
 FeatureUse decided(const Scene& scene, const RenderSettings& settings, unsigned threads = 2) {
-    Renderer renderer({.threads = threads});
-    renderer.update(scene, settings);
-    EXPECT_TRUE(renderer.decide());
-    return line_of(renderer);
-}
-
-// Samples [first, first + count) of both parts in this order.
-Frame rendered(const Scene& scene, const RenderSettings& settings, std::initializer_list<std::pair<int64_t, int64_t>> parts,
-               unsigned threads = 2) {
-    Renderer renderer({.threads = threads});
-    renderer.update(scene, settings);
-    for (const auto& [first, count] : parts) EXPECT_TRUE(renderer.render(first, count));
-    return renderer.resolve();
+    return decided_line(scene, settings, feature, threads);
 }
 
 TEST(PortalPilot, FindsTheWindowOfARoom) {
@@ -132,7 +117,7 @@ TEST(PortalPilot, ReducesTheVariance) {
         std::vector<statistics::Moments> pixels(size_t(settings.width * settings.height));
         for (uint32_t seed = 1; seed <= 16; ++seed) {
             settings.seed = seed;
-            const Frame frame = rendered(window_room(), settings, {{sample, 1}});
+            const Frame frame = rendered_in_parts(window_room(), settings, {{sample, 1}});
             for (size_t i = 0; i < pixels.size(); ++i) pixels[i].add(double(frame.rgba[4 * i]));
         }
         std::ranges::nth_element(pixels, pixels.begin() + std::ptrdiff_t(pixels.size() / 2), {}, &statistics::Moments::variance);
@@ -168,11 +153,11 @@ TEST(PortalPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
 TEST(PortalPilot, DecidesOverAllSamplesButTheFirst) {
     const Scene scene = mapped_window_room();
     RenderSettings settings = settings_of(8);
-    const Frame whole = rendered(scene, settings, {{0, 8}});
-    EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 1}, {1, 7}})));
-    EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 5}, {5, 3}}, 1)));
+    const Frame whole = rendered_in_parts(scene, settings, {{0, 8}});
+    EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 1}, {1, 7}})));
+    EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 5}, {5, 3}}, 1)));
     settings.adaptive = true;
-    EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered(scene, settings, {{0, 24}})));
+    EXPECT_TRUE(same_pixels(rendered_in_parts(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered_in_parts(scene, settings, {{0, 24}})));
 }
 
 TEST(PortalPilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
@@ -194,7 +179,7 @@ TEST(PortalPilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
 TEST(PortalPilot, IsFollowedByThePathLog) {
     const Scene scene = lit_window_room();
     const RenderSettings settings = settings_of(8);
-    const Frame frame = rendered(scene, settings, {{5, 1}});
+    const Frame frame = rendered_in_parts(scene, settings, {{5, 1}});
     for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
         const std::string log = trace_sample(scene, settings, x, y, 5);
         float red = -1;

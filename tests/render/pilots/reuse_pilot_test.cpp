@@ -6,6 +6,7 @@
 #include "render/film/film_state.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/pilots/reuse_choice.h"
+#include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/images.h"
@@ -23,18 +24,11 @@ RenderSettings automatic(int width, int height, int64_t spp) {
     return settings;
 }
 
-FeatureUse line_of(Renderer& renderer) {
-    const auto report = renderer.feature_report();
-    const auto found = std::ranges::find(*report, "path reuse", &FeatureUse::name);
-    return found == report->end() ? FeatureUse{} : *found;
-}
+constexpr const char* feature = "path reuse";
+FeatureUse line_of(Renderer& renderer) { return feature_line(renderer, feature); }
 
-// After the pilot, if there is one.
 FeatureUse decided(const Scene& scene, const RenderSettings& settings, unsigned threads = 2) {
-    Renderer renderer({.threads = threads});
-    renderer.update(scene, settings);
-    EXPECT_TRUE(renderer.decide());
-    return line_of(renderer);
+    return decided_line(scene, settings, feature, threads);
 }
 
 // A white room; light comes through a window, from the sky onto the floor.
@@ -172,26 +166,20 @@ TEST(ReusePilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
 
 // ---- which samples are shared
 
-// Samples [first, first + count) of both parts in this order.
-Frame rendered(const Scene& scene, const RenderSettings& settings, std::initializer_list<std::pair<int64_t, int64_t>> parts) {
-    Renderer renderer({.threads = 2});
-    renderer.update(scene, settings);
-    for (const auto& [first, count] : parts) EXPECT_TRUE(renderer.render(first, count));
-    return renderer.resolve();
-}
-
 TEST(ReusePilot, DecidesOverAllSamplesButTheFirst) {
     for (const auto& [scene, size] : {std::pair{window_room(), 16}, std::pair{open_field(), 1}}) {
         RenderSettings settings = automatic(80, 48, 8), chosen = settings, shared = settings;
         chosen.reuse = size;
         shared.reuse = 8;
-        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{1, 7}}), rendered(scene, chosen, {{1, 7}}))) << size;
-        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}}), rendered(scene, shared, {{0, 1}}))) << size;
-        const Frame whole = rendered(scene, settings, {{0, 8}});
-        EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 1}, {1, 7}}))) << size;
-        EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 5}, {5, 3}}))) << size;
+        EXPECT_TRUE(same_pixels(rendered_in_parts(scene, settings, {{1, 7}}), rendered_in_parts(scene, chosen, {{1, 7}}))) << size;
+        EXPECT_TRUE(same_pixels(rendered_in_parts(scene, settings, {{0, 1}}), rendered_in_parts(scene, shared, {{0, 1}}))) << size;
+        const Frame whole = rendered_in_parts(scene, settings, {{0, 8}});
+        EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 1}, {1, 7}}))) << size;
+        EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 5}, {5, 3}}))) << size;
         settings.adaptive = true;
-        EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered(scene, settings, {{0, 24}}))) << size;
+        EXPECT_TRUE(
+            same_pixels(rendered_in_parts(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered_in_parts(scene, settings, {{0, 24}})))
+            << size;
     }
 }
 

@@ -5,6 +5,7 @@
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
 #include "render/integrator/kernel_settings.h"
+#include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/images.h"
@@ -51,27 +52,11 @@ Scene open_floor() {
 
 RenderSettings settings_of(int64_t spp) { return settings_for(80, 48, spp); }
 
-FeatureUse line_of(Renderer& renderer) {
-    const auto report = renderer.feature_report();
-    const auto found = std::ranges::find(*report, "learned visibility", &FeatureUse::name);
-    return found == report->end() ? FeatureUse{} : *found;
-}
+constexpr const char* feature = "learned visibility";
+FeatureUse line_of(Renderer& renderer) { return feature_line(renderer, feature); }
 
-// After the pilot, if there is one.
 FeatureUse decided(const Scene& scene, const RenderSettings& settings, unsigned threads = 2) {
-    Renderer renderer({.threads = threads});
-    renderer.update(scene, settings);
-    EXPECT_TRUE(renderer.decide());
-    return line_of(renderer);
-}
-
-// Samples [first, first + count) of both parts in this order.
-Frame rendered(const Scene& scene, const RenderSettings& settings, std::initializer_list<std::pair<int64_t, int64_t>> parts,
-               unsigned threads = 2) {
-    Renderer renderer({.threads = threads});
-    renderer.update(scene, settings);
-    for (const auto& [first, count] : parts) EXPECT_TRUE(renderer.render(first, count));
-    return renderer.resolve();
+    return decided_line(scene, settings, feature, threads);
 }
 
 TEST(VisibilityPilot, IsUsedWhereLightsAreHidden) {
@@ -99,7 +84,7 @@ TEST(VisibilityPilot, ReducesTheVariance) {
         statistics::Moments channel;
         for (uint32_t seed = 1; seed <= 8; ++seed) {
             settings.seed = seed;
-            const Frame frame = rendered(scene, settings, {{sample, 1}});
+            const Frame frame = rendered_in_parts(scene, settings, {{sample, 1}});
             // A part of the floor.
             for (int y = 40; y < 46; ++y)
                 for (int x = 30; x < 50; ++x) channel.add(double(frame.rgba[4 * size_t(y * frame.width + x)]));
@@ -142,11 +127,11 @@ TEST(VisibilityPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
 TEST(VisibilityPilot, DecidesOverAllSamplesButTheFirst) {
     const Scene scene = shuttered_room();
     RenderSettings settings = settings_of(8);
-    const Frame whole = rendered(scene, settings, {{0, 8}});
-    EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 1}, {1, 7}})));
-    EXPECT_TRUE(same_pixels(whole, rendered(scene, settings, {{0, 5}, {5, 3}}, 1)));
+    const Frame whole = rendered_in_parts(scene, settings, {{0, 8}});
+    EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 1}, {1, 7}})));
+    EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 5}, {5, 3}}, 1)));
     settings.adaptive = true;
-    EXPECT_TRUE(same_pixels(rendered(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered(scene, settings, {{0, 24}})));
+    EXPECT_TRUE(same_pixels(rendered_in_parts(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered_in_parts(scene, settings, {{0, 24}})));
 }
 
 TEST(VisibilityPilot, DoesNotDelayTheFirstSampleOrACoarseImage) {
@@ -206,7 +191,7 @@ TEST(VisibilityPilot, ContinuesASavedFilm) {
 TEST(VisibilityPilot, IsFollowedByThePathLog) {
     const Scene scene = shuttered_room();
     const RenderSettings settings = settings_of(8);
-    const Frame frame = rendered(scene, settings, {{5, 1}});
+    const Frame frame = rendered_in_parts(scene, settings, {{5, 1}});
     for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
         const std::string log = trace_sample(scene, settings, x, y, 5);
         float red = -1;
