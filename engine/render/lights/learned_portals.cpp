@@ -88,18 +88,14 @@ LearnedPortals::LearnedPortals(std::span<const EscapeTrial> trials, const Enviro
     for (const EscapeTrial& t : trials) positions.push_back(t.position);
     const ReceiverGrid grid = make_receiver_grid(positions, cells_along_longest);
     if (grid.cells_per_metre == 0) return;
-    const auto blocks = [&](int axis) { return (grid.cells[axis] + portal_block - 1) / portal_block; };
-    const auto block_of = [&](int cell) {
-        const int x = cell % grid.cells[0], y = cell / grid.cells[0] % grid.cells[1], z = cell / (grid.cells[0] * grid.cells[1]);
-        return (z / portal_block * blocks(1) + y / portal_block) * blocks(0) + x / portal_block;
-    };
-    std::vector<Region> of_cell(size_t(grid.count())), of_block(size_t(blocks(0) * blocks(1) * blocks(2)));
+    const CellBlocks blocks{grid, portal_block};
+    std::vector<Region> of_cell(size_t(grid.count())), of_block(size_t(blocks.count()));
     int64_t tried = 0;
     for (const EscapeTrial& t : trials) {
         if (t.is_delta || !is_finite_position(t.position) || !is_finite_position(t.direction)) continue;
         const int cell = receiver_cell<float>(grid, t.position), bin = portal_bin<float>(t.direction);
         ++tried;
-        for (Region* region : {&of_cell[size_t(cell)], &of_block[size_t(block_of(cell))]}) {
+        for (Region* region : {&of_cell[size_t(cell)], &of_block[size_t(blocks.of(cell))]}) {
             ++region->tried;
             region->escaped[size_t(bin)] += t.escaped;
         }
@@ -109,7 +105,7 @@ LearnedPortals::LearnedPortals(std::span<const EscapeTrial> trials, const Enviro
     std::vector<int32_t> rows(size_t(grid.count()), -1);
     int64_t reached = 0;
     for (int cell = 0; cell < grid.count(); ++cell) {
-        const Region &own = of_cell[size_t(cell)], &around = of_block[size_t(block_of(cell))];
+        const Region &own = of_cell[size_t(cell)], &around = of_block[size_t(blocks.of(cell))];
         const double escaped = sum_of(own.escaped), escaped_around = sum_of(around.escaped);
         if (own.tried < least_trials || escaped_around < least_escapes) continue;
         if (escaped > largest_escaping_share * double(own.tried)) continue;

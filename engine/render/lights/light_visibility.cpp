@@ -44,13 +44,9 @@ LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const Ligh
     if (grid.cells_per_metre == 0) return;
     shape_ = {.factors = nullptr, .words = (groups + visibility_word_lights - 1) / visibility_word_lights, .grid = grid};
     const auto cells = size_t(grid.count()), rows = cells * visibility_sides;
-    const auto blocks = [&](size_t axis) { return size_t((grid.cells[axis] + block - 1) / block); };
-    const auto block_of = [&](size_t cell) {
-        const size_t x = cell % size_t(grid.cells[0]), y = cell / size_t(grid.cells[0]) % size_t(grid.cells[1]),
-                     z = cell / (size_t(grid.cells[0]) * size_t(grid.cells[1]));
-        return (z / block * blocks(1) + y / block) * blocks(0) + x / block;
-    };
-    std::vector<Count> of_scene(g), of_block(blocks(0) * blocks(1) * blocks(2) * g), of_cell(cells * g), of_row(rows * g);
+    const CellBlocks blocks{grid, block};
+    const auto block_of = [&](size_t cell) { return size_t(blocks.of(int32_t(cell))); };
+    std::vector<Count> of_scene(g), of_block(size_t(blocks.count()) * g), of_cell(cells * g), of_row(rows * g);
     for (const ShadowTrial& t : trials) {
         const int group = is_finite_position(t.position) ? group_of(lights, t.light) : -1;
         if (group < 0) continue;

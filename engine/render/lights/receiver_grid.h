@@ -13,4 +13,17 @@ ReceiverGrid make_receiver_grid(const std::vector<Vec3>& positions, int cells_al
 
 bool is_finite_position(const Vec3& position);
 
+// The cells of a grid in cubic blocks of `side` cells: where a cell has learned little, its block says more.
+struct CellBlocks {
+    const ReceiverGrid& grid;
+    int32_t side;
+
+    int32_t along(int axis) const { return (grid.cells[axis] + side - 1) / side; }
+    int32_t count() const { return along(0) * along(1) * along(2); }
+    int32_t of(int32_t cell) const {
+        const int32_t x = cell % grid.cells[0], y = cell / grid.cells[0] % grid.cells[1], z = cell / (grid.cells[0] * grid.cells[1]);
+        return (z / side * along(1) + y / side) * along(0) + x / side;
+    }
+};
+
 } // namespace blush

@@ -4,8 +4,10 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -32,6 +34,17 @@ inline Frame rendered_in_parts(const Scene& scene, const RenderSettings& setting
     renderer.update(scene, settings);
     for (const auto& [first, count] : parts) EXPECT_TRUE(renderer.render(first, count));
     return renderer.resolve();
+}
+
+// The log of a path selects the lights that the image selects.
+inline void expect_log_follows_image(const Scene& scene, const RenderSettings& settings) {
+    const Frame frame = rendered_in_parts(scene, settings, {{5, 1}});
+    for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
+        const std::string log = trace_sample(scene, settings, x, y, 5);
+        float red = -1;
+        std::sscanf(log.c_str() + log.rfind("radiance ("), "radiance (%f", &red);
+        EXPECT_NEAR(red, frame.rgba[4 * size_t(y * frame.width + x)], 5e-6f * red) << log;
+    }
 }
 
 } // namespace blush::test

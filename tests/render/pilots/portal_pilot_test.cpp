@@ -175,18 +175,7 @@ TEST(PortalPilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
     }
 }
 
-// The log of a path samples the light that the image samples.
-TEST(PortalPilot, IsFollowedByThePathLog) {
-    const Scene scene = lit_window_room();
-    const RenderSettings settings = settings_of(8);
-    const Frame frame = rendered_in_parts(scene, settings, {{5, 1}});
-    for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
-        const std::string log = trace_sample(scene, settings, x, y, 5);
-        float red = -1;
-        std::sscanf(log.c_str() + log.rfind("radiance ("), "radiance (%f", &red);
-        EXPECT_NEAR(red, frame.rgba[4 * size_t(y * frame.width + x)], 5e-6f * red) << log;
-    }
-}
+TEST(PortalPilot, IsFollowedByThePathLog) { expect_log_follows_image(lit_window_room(), settings_of(8)); }
 
 } // namespace
 } // namespace blush::test::TEST_FILE

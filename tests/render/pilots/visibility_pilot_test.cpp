@@ -187,18 +187,7 @@ TEST(VisibilityPilot, ContinuesASavedFilm) {
     EXPECT_TRUE(same_pixels(continued.resolve(), whole.resolve()));
 }
 
-// The log of a path selects the lights that the image selects.
-TEST(VisibilityPilot, IsFollowedByThePathLog) {
-    const Scene scene = shuttered_room();
-    const RenderSettings settings = settings_of(8);
-    const Frame frame = rendered_in_parts(scene, settings, {{5, 1}});
-    for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
-        const std::string log = trace_sample(scene, settings, x, y, 5);
-        float red = -1;
-        std::sscanf(log.c_str() + log.rfind("radiance ("), "radiance (%f", &red);
-        EXPECT_NEAR(red, frame.rgba[4 * size_t(y * frame.width + x)], 5e-6f * red) << log;
-    }
-}
+TEST(VisibilityPilot, IsFollowedByThePathLog) { expect_log_follows_image(shuttered_room(), settings_of(8)); }
 
 } // namespace
 } // namespace blush::test::TEST_FILE
