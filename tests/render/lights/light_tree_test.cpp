@@ -8,9 +8,9 @@
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 #include "tests/support/many_lights.h"
+#include "tests/support/random_numbers.h"
 
 #include <cmath>
-#include <random>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -23,13 +23,8 @@ struct Compiled {
     const LightTables& lights() const { return scene.tables().lights; }
 };
 
-struct Random {
-    std::mt19937 bits{17};
-    float operator()(float low = 0, float high = 1) { return low + (high - low) * float(bits() >> 8) * 0x1p-24f; }
-    Vec3 direction() {
-        const float z = (*this)(-1, 1), turn = (*this)(0, 6.2831853f), r = std::sqrt(1 - z * z);
-        return {r * std::cos(turn), r * std::sin(turn), z};
-    }
+struct Random : RandomNumbers {
+    Random() : RandomNumbers(17) {}
 };
 
 Light random_light(Random& random, int i) {

@@ -6,23 +6,18 @@
 #include "render/compile/render_scene.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
+#include "tests/support/random_numbers.h"
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
 
-struct Random {
-    std::mt19937 bits{7};
-    float operator()(float low = 0, float high = 1) { return low + (high - low) * float(bits() >> 8) * 0x1p-24f; }
-    Vec3 direction() {
-        const float z = (*this)(-1, 1), turn = (*this)(0, 6.2831853f), r = std::sqrt(1 - z * z);
-        return {r * std::cos(turn), r * std::sin(turn), z};
-    }
+struct Random : RandomNumbers {
+    Random() : RandomNumbers(7) {}
 };
 
 Scene lamps_under(bool map) {
