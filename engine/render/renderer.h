@@ -65,11 +65,12 @@ public:
     // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads) returns
     // true. False if stopped: pixels then hold different numbers of samples, which can be shown but not continued. Results do not
     // depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per pixel on
-    // average (sample_allocation.h), whatever `first`.
+    // average (sample_allocation.h), whatever `first`. Where the pilots gain much, the first sample of a film is rendered again with the
+    // second (LearnedSampling::renews_first).
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     void clear();
-    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path reuse and
-    // smooth edges (visibility_choice.h, portal_choice.h, reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
+    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path guiding
+    // (learned_sampling.h), path reuse and smooth edges (reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
     // sample at full resolution. False if stopped.
     bool decide(const std::function<bool()>& wanted = {});
 

@@ -40,8 +40,7 @@ void Renderer::State::begin_film(Clock::time_point begun) {
     clear();
     reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
-    visibility = VisibilityChoice(settings, scene);
-    portals = PortalChoice(settings, scene);
+    learned = LearnedSampling(settings, scene);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -70,8 +69,7 @@ void Renderer::select_lights_by_mix() {
     State& s = *state_;
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
-    s.visibility = VisibilityChoice(s.settings, s.scene);
-    s.portals = PortalChoice(s.settings, s.scene);
+    s.learned = LearnedSampling(s.settings, s.scene);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -113,8 +111,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
         feature_report.push_back(s.reuse.report());
         feature_report.push_back(s.edges.report());
-        feature_report.push_back(s.visibility.report());
-        feature_report.push_back(s.portals.report());
+        for (FeatureUse& use : s.learned.report()) feature_report.push_back(std::move(use));
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;

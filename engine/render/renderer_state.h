@@ -11,9 +11,8 @@
 #include "render/film/sample_allocation.h"
 #include "render/film/shadow_catcher.h"
 #include "render/pilots/edge_choice.h"
-#include "render/pilots/portal_choice.h"
+#include "render/pilots/learned_sampling.h"
 #include "render/pilots/reuse_choice.h"
-#include "render/pilots/visibility_choice.h"
 #include "render/renderer.h"
 #include "render/tile_shape.h"
 
@@ -47,11 +46,11 @@ struct Renderer::State {
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
     ReuseChoice reuse; // of the scene and settings
-    EdgeChoice edges;  // likewise, as the next two
-    VisibilityChoice visibility;
-    PortalChoice portals;
+    EdgeChoice edges;  // likewise, as the next
+    LearnedSampling learned;
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
-    bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered without smooth edges
+    bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
+    bool first_as_others = false;                      // the first sample is rendered as the pilots decide for the others
     int divider = 1;
     const Kernel* kernel = nullptr;
     std::string kernel_name;
@@ -74,8 +73,9 @@ struct Renderer::State {
     // Without its seed. `tables` of the scene.
     KernelContext context_for(const SceneTables& tables, int width, int height) const;
     // With what the pilots have learned, for a sample of this index at full resolution.
-    SceneTables learned_tables(int64_t sample) const { return portals.tables(visibility.tables(scene.tables(), sample), sample); }
-    int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(sample) : reuse.first_group_size(); }
+    // Whose decisions of the pilots a sample of this index follows.
+    int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
+    int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(decided_as(sample)) : reuse.first_group_size(); }
 
     FilmSize full_film() const {
         return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
@@ -111,7 +111,7 @@ struct Renderer::State {
     void clear() {
         film_is_stale = true;
         film_is_uneven = false;
-        first_is_rough = false;
+        first_is_rough = first_as_others = false;
         feature_report.reset();
         samples = 0;
         rays = {};
@@ -147,11 +147,12 @@ struct Renderer::State {
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
     void refine_first_sample(const EdgePixels& pixels);
+    bool renew_first_sample(const Wanted& wanted);
     bool decide(const Wanted& wanted);
 
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {
-        return divider == 1 && (visibility.pays() || portals.pays() || edges.pixels(1) || reuse_group_size(0) != reuse_group_size(1));
+        return divider == 1 && !first_as_others && (learned.pays() || edges.pixels(1) || reuse_group_size(0) != reuse_group_size(1));
     }
     EdgeScratch& edge_scratch_of(unsigned worker) {
         if (!at_edges[worker]) at_edges[worker] = std::make_unique<EdgeScratch>();

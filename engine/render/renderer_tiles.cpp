@@ -4,9 +4,7 @@
 #include "render/integrator/reuse_groups.h"
 #include "render/kernels/stage_timer.h"
 #include "render/pilots/edge_pilot.h"
-#include "render/pilots/portal_pilot.h"
 #include "render/pilots/reuse_pilot.h"
-#include "render/pilots/visibility_pilot.h"
 #include "render/renderer_state.h"
 
 #include <algorithm>
@@ -23,7 +21,7 @@ KernelContext Renderer::State::context_for(const SceneTables& tables, int width,
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
-    const SceneTables tables = learned_tables(divider == 1 ? run.first : 0);
+    const SceneTables tables = learned.tables(scene.tables(), decided_as(run.first));
     KernelContext context = context_for(tables, film.width(), film.height());
     context.seed = settings.seed;
     context.settings.reuse = run.groups;
@@ -32,7 +30,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
         if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
         return find_fault(context, x, y, sample, *replays[worker]);
     };
-    const EdgePixels* pixels = divider == 1 ? edges.pixels(run.first) : nullptr;
+    const EdgePixels* pixels = divider == 1 ? edges.pixels(decided_as(run.first)) : nullptr;
     job.stride = run.stride;
     for (int64_t done = 0; done < run.count; done += job.samples) {
         if (done > 0 && wanted && !wanted()) return false;
@@ -143,23 +141,25 @@ void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
     first_is_rough = false;
 }
 
+// Renders the first sample again, as the pilots decided for the others.
+bool Renderer::State::renew_first_sample(const Wanted& wanted) {
+    film_is_stale = true;
+    clear_stale_film();
+    rays = {};
+    path_counts.clear();
+    truncated = 0;
+    first_is_rough = false;
+    first_as_others = true;
+    return render_uniformly(0, 1, wanted) || !(film_is_uneven = true);
+}
+
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(const Wanted& wanted) {
-    if (!visibility.needs_pilot() && !portals.needs_pilot() && !reuse.needs_pilot() && !edges.needs_pilot()) return true;
-    SceneTables tables = learned_tables(1);
+    if (!learned.needs_pilot() && !reuse.needs_pilot() && !edges.needs_pilot()) return true;
+    SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);
-    if (visibility.needs_pilot()) {
-        auto learned = learn_light_visibility(context, *kernel, workers, replays, wanted);
-        if (!learned) return false;
-        visibility.decide(*std::move(learned));
-        tables = learned_tables(1);
-    }
-    if (portals.needs_pilot()) {
-        auto pilot = learn_portals(context, *kernel, workers, replays, wanted);
-        if (!pilot) return false;
-        portals.decide(*std::move(pilot));
-        tables = learned_tables(1);
-    }
+    if (!learned.decide(context, *kernel, workers, replays, wanted)) return false;
+    tables = learned.tables(scene.tables(), 1);
     if (reuse.needs_pilot()) {
         const auto measured = measure_path_reuse(context, *kernel, workers, replays, wanted);
         if (!measured) return false;
@@ -180,7 +180,13 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     State& s = *state_;
     s.clear_stale_film();
     const int64_t begin = s.settings.adaptive ? s.samples : first;
-    if (s.divider == 1 && begin + count > 1 && !s.decide(wanted)) return false;
+    if (s.divider == 1 && begin + count > 1) {
+        if (!s.decide(wanted)) return false;
+        if (s.learned.renews_first()) {
+            if (begin == 0) s.first_as_others = true;
+            if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
+        }
+    }
     for (int64_t done = 0; done < count;) {
         const int64_t next = begin + done;
         int64_t step = count - done;
@@ -190,7 +196,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
         const bool planned = s.settings.adaptive && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
-        if (next == 0) s.first_is_rough = s.divider == 1;
+        if (next == 0) s.first_is_rough = s.divider == 1 && !s.first_as_others;
         s.samples += step;
         done += step;
         if (!s.settings.adaptive) continue;

@@ -68,7 +68,7 @@ CausticGuide<F> caustic_guide_at(const CausticCasterTables& table, const Vec<F>&
 }
 
 // Mixture pdf of a unit direction, where the BSDF alone has `pdf`.
-template <class F> F guided_pdf(const CausticCasterTables& table, const CausticGuide<F>& f, const Vec<F>& direction, const F& pdf) {
+template <class F> F caster_pdf(const CausticCasterTables& table, const CausticGuide<F>& f, const Vec<F>& direction, const F& pdf) {
     F sum = F(0.f);
     for (int i = 0; i < table.count; ++i) {
         const CasterSphere& sphere = table.spheres[i];

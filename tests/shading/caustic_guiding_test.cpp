@@ -44,7 +44,7 @@ std::vector<Drawn> draw(const CausticCasterTables& table, int count) {
         const Vec3 w = choice < focus.share ? sample_caster_direction<float>(table, focus, choice / focus.share, a, b)
                                             : sample_cosine_hemisphere(a, b);
         const float cosine = cosine_hemisphere_pdf(w.z);
-        drawn.push_back({w, double(cosine) / double(guided_pdf<float>(table, focus, w, cosine))});
+        drawn.push_back({w, double(cosine) / double(caster_pdf<float>(table, focus, w, cosine))});
     }
     return drawn;
 }
@@ -86,7 +86,7 @@ TEST(CausticGuide, NoGuidingFromInsideBelowTheHorizonOrWithoutCasters) {
     EXPECT_EQ(caustic_guide_at<float>({&ahead, 1}, {0, 0, 0}, up, false).share, 0) << "not diffuse";
     const CausticGuide<float> near = caustic_guide_at<float>({&ahead, 1}, {0, 0, 0.9f}, up, true);
     EXPECT_EQ(near.share, max_guided_share);
-    EXPECT_EQ(guided_pdf<float>({&below, 1}, caustic_guide_at<float>({&below, 1}, {0, 0, 0}, up, true), up, 0.25f), 0.25f);
+    EXPECT_EQ(caster_pdf<float>({&below, 1}, caustic_guide_at<float>({&below, 1}, {0, 0, 0}, up, true), up, 0.25f), 0.25f);
 }
 
 } // namespace blush::TEST_FILE

@@ -77,7 +77,7 @@ void RenderScene::update_caustic_casters(const Scene& scene, const RenderSetting
     if (!changed_.objects && !changed_.origin && !changed_.casters && wanted == has_casters_) return;
     has_casters_ = wanted;
     caustic_casters_.build(scene, objects_, extent_.origin, wanted);
-    tables_.caustic_casters = caustic_casters_.tables();
+    tables_.guides.casters = caustic_casters_.tables();
 }
 
 // Records of emissive meshes, if these, their materials or area lights changed.

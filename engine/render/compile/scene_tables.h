@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/vec.h"
-#include "shading/caustic_guiding.h"
 #include "shading/environment.h"
 #include "shading/light.h"
 #include "shading/material.h"
+#include "shading/path_guiding.h"
 
 #include <array>
 #include <cstdint>
@@ -73,8 +73,8 @@ struct SceneTables {
     MaterialTables materials;
     LightTables lights;
     EnvironmentTables environment;
-    CausticCasterTables caustic_casters; // empty: no caustic guiding
-    GroupTables groups;                  // null: no light mix
+    GuideTables guides;
+    GroupTables groups; // null: no light mix
     LinkTables links;
     bool panes = false; // some part is a wall that may transmit straight through (thin_transmission.h)
     CameraRecord camera{};

@@ -6,13 +6,12 @@
 #include "render/diagnostics/fault_finder.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/integrator/kernel_settings.h"
-#include "render/pilots/portal_choice.h"
-#include "render/pilots/visibility_choice.h"
-#include "render/pilots/visibility_pilot.h"
+#include "render/pilots/learned_sampling.h"
 #include "render/renderer.h"
 #include "scene/affine.h"
 #include "scene/reuse_setting.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <vector>
@@ -103,13 +102,11 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height), settings.seed};
     std::vector<std::unique_ptr<TileScratch>> scratches(1);
     const Kernel& kernel = choose_kernel(compiled.features());
-    VisibilityChoice visibility(settings, compiled);
-    if (sample > 0 && visibility.needs_pilot()) visibility.decide(*learn_light_visibility(context, kernel, workers, scratches, {}));
-    SceneTables tables = visibility.tables(compiled.tables(), sample);
+    LearnedSampling learned(settings, compiled);
+    const bool decides = sample > 0 || settings.spp != 1; // without a limit, too
+    if (decides) learned.decide(context, kernel, workers, scratches, {});
+    const SceneTables tables = learned.tables(compiled.tables(), decides && learned.renews_first() ? std::max<int64_t>(sample, 1) : sample);
     context.scene = &tables;
-    PortalChoice portals(settings, compiled);
-    if (sample > 0 && portals.needs_pilot()) portals.decide(*learn_portals(context, kernel, workers, scratches, {}));
-    tables = portals.tables(tables, sample);
     Logger log{expanded, compiled, context.settings, {}};
     log.line("pixel {},{} sample {} seed {}", x, y, sample, settings.seed);
 

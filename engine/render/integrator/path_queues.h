@@ -99,6 +99,9 @@ inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue&
             other_ray_mask, context.scene->links.lit_sets ? q.mask.data : nullptr};
 }
 
+// Density, 1/sr, of lobes that focus light: that of a diffuse lobe is at most 1 / pi.
+constexpr float min_focused_pdf = 1;
+
 // Records the shadow rays of these lanes; call before they are appended to the queue.
 template <class F> void record_trials(TileScratch& scratch, const Step<F>& s, const Mask<F>& lanes) {
     std::vector<ShadowTrial>& trials = *scratch.trials;
@@ -121,6 +124,40 @@ template <class F> void record_escapes(EscapeTrials& escapes, const Path<F>& nex
                                {lane(to.x, i), lane(to.y, i), lane(to.z, i)},
                                lane(next.pdf, i) == infinity,
                                false});
+    });
+}
+
+// The same for path guiding. Delta lobes cannot be guided.
+template <class F> void record_guiding(GuidingTrials& guiding, const Path<F>& next, const Mask<F>& lanes) {
+    for_each_lane(bits(lanes && next.pdf < F(infinity)), [&](int i) {
+        const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
+        const Vec3 normal = at(next.normal), direction = at(next.ray.direction);
+        const double cosine = double(max(0.f, dot(normal, direction)));
+        guiding.add({at(next.ray.origin), normal, direction, 0}, lane(next.slot, i),
+                    cosine / (double(lane(next.pdf, i)) * double(luminance(at(next.beta)))));
+    });
+}
+
+// Replaces the camera rays in the queue by photons.
+inline void emit_photons(const PhotonTrials& photons, PathQueue& q) {
+    q.size = int(photons.emitted.size());
+    for (int k = 0; k < q.size; ++k) {
+        const EmittedPhoton& p = photons.emitted[size_t(k)];
+        q.ox[k] = p.origin.x;
+        q.oy[k] = p.origin.y;
+        q.oz[k] = p.origin.z;
+        q.dx[k] = p.direction.x;
+        q.dy[k] = p.direction.y;
+        q.dz[k] = p.direction.z;
+        q.beta_r[k] = q.beta_g[k] = q.beta_b[k] = p.flux;
+    }
+}
+// Records photons that smooth lobes have sent to diffuse surfaces: those that go on from there with the density of a diffuse lobe.
+template <class F> void record_photons(PhotonTrials& photons, const Path<F>& path, const Path<F>& next, const Mask<F>& lanes) {
+    const Mask<F> arrived = lanes && path.pdf > F(min_focused_pdf) && next.pdf <= F(1.001f * inv_pi);
+    for_each_lane(bits(arrived), [&](int i) {
+        const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
+        photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
     });
 }
 

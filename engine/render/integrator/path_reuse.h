@@ -8,7 +8,7 @@
 // per area with which x_i samples y, and V its visibility, the balance heuristic (Veach 1997, section 9.2) over all members as
 // strategies for y gives pixel i
 //   rho_i sum_k [ V_ik G_i(y_k) / sum_j V_jk G_j(y_k) ] L_k.
-// With caustic guiding (caustic_guiding.h), x samples y with a density D_i(y) >= G_i(y) / 2: then D replaces G in the sum, and L_k is D_k /
+// With path guiding (path_guiding.h), x samples y with a density D_i(y) >= G_i(y) / 2: then D replaces G in the sum, and L_k is D_k /
 // G_k times the radiance of a path that was sampled with D_k.
 // The shares of a vertex sum to one, so reuse creates no outliers. L_k is any unbiased estimate of the radiance scattered by y_k,
 // so Russian roulette does not matter. Emission of y_k itself stays with pixel k, where the pdf for its MIS weight is known.
@@ -88,7 +88,7 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
 // Computes G for every member and vertex of the batch, and queues
 // visibility rays from vertex to member where visibility is unknown.
 template <class F>
-void queue_connections(const CausticCasterTables& casters, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+void queue_connections(const GuideTables& guides, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const ReuseVertexColumns &a = reuse.first, &b = reuse.second;
     q.size = 0;
@@ -114,11 +114,11 @@ void queue_connections(const CausticCasterTables& casters, const ReuseColumns& r
         density = select(present && (own || possible) && density >= F(min_density) && density <= F(max_density), density, F(0.f));
         store(batch.density + k, density);
         F drawn = density;
-        if (casters.count > 0) {
+        if (!guides.empty()) {
             const F distance = sqrt(d2), cosine = cosine_hemisphere_pdf(F(cos_x / distance));
             const Mask<F> sampled = density > F(0.f);
-            const CausticGuide<F> from_x = caustic_guide_at<F>(casters, at_x, ns_x, sampled);
-            const F mixed = guided_pdf<F>(casters, from_x, Vec<F>(to / distance), cosine);
+            const DirectionGuide<F> from_x = direction_guide_at<F>(guides, at_x, ns_x, sampled);
+            const F mixed = guided_pdf<F>(guides, from_x, Vec<F>(to / distance), cosine);
             drawn = select(sampled, density * (mixed / select(sampled, cosine, F(1.f))), F(0.f));
         }
         store(batch.drawn + k, drawn);
@@ -241,7 +241,7 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
     const int group_size = context.settings.reuse.size();
     if (batch.vertices > 0) {
         ShadowQueue& q = scratch.shadows;
-        queue_connections<F>(context.scene->caustic_casters, reuse, batch, group_size, q);
+        queue_connections<F>(context.scene->guides, reuse, batch, group_size, q);
         const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
         // Not coherent: rays of one vertex form a narrow fan, but packets mix several vertices.
         trace_any<F>(*context.accel, rays, q.size, false, scratch.blocked);

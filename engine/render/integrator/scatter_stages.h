@@ -3,7 +3,7 @@
 
 #include "render/integrator/hit_stages.h"
 #include "render/kernels/stage_timer.h"
-#include "shading/caustic_guiding.h"
+#include "shading/path_guiding.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -33,10 +33,10 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
 
 // What sample_direct and sample_indirect share.
 template <class F> struct ScatterSetup {
-    Mask<F> pane;          // thin glass: its straight lobe is handled in thin_transmission.h
-    F scatter_share;       // of the paths that do not pass the pane straight through; 1 elsewhere
-    bool guides;           // the scene has casters of caustics
-    CausticGuide<F> guide; // only if it has
+    Mask<F> pane;            // thin glass: its straight lobe is handled in thin_transmission.h
+    F scatter_share;         // of the paths that do not pass the pane straight through; 1 elsewhere
+    bool guides;             // diffuse surfaces guide paths
+    DirectionGuide<F> guide; // only if it has
     Receiver<F> receiver;
 };
 template <Features S, class F> [[gnu::always_inline]] inline ScatterSetup<F>
@@ -47,8 +47,8 @@ scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const 
             setup.scatter_share = select(material.pane, 1.f - straight_transmission<S, F>(p.bsdf, p.shading.wo).probability, F(1.f));
     // Kernels without specular lobes contain no code for caustic guiding.
     if constexpr (S.has(Feature::specular) || S.has(Feature::transmission)) {
-        setup.guides = scene.caustic_casters.count > 0;
-        if (setup.guides) setup.guide = caustic_guide_at<F>(scene.caustic_casters, p.surface.position, p.shading.ns, p.lambertian);
+        setup.guides = !scene.guides.empty();
+        if (setup.guides) setup.guide = direction_guide_at<F>(scene.guides, p.surface.position, p.shading.ns, p.lambertian);
     }
     // Light from both sides.
     if constexpr (S.has(Feature::transmission))
@@ -88,7 +88,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(
             out.shadow_mask = shadow_mask<F>(scene.links, record);
         }
     }
-    const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.caustic_casters, setup.guide, wi_world, f.pdf) : f.pdf;
+    const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.guides, setup.guide, wi_world, f.pdf) : f.pdf;
     const F weight = nee_mis_weight(strategy, in.pdf, bsdf_pdf, only_sampled);
     out.direct = p.beta * f.f_cos * in.radiance * (weight / in.pdf);
     if constexpr (S.has(Feature::transmission))
@@ -119,17 +119,17 @@ template <class F> struct IndirectSample {
 // Caustic guiding: replaces the direction by one towards a caster with the guide's share, and the pdf by that of the mixture
 // (one-sample model, Veach 1997, 9.2.4; caustic_guiding.h). `choice` has selected the lobe before.
 template <class F> [[gnu::always_inline]] inline void guide_indirect(const SceneTables& scene, const ShadingPoint<F>& p,
-                                                                     const CausticGuide<F>& guide, const F& choice,
+                                                                     const DirectionGuide<F>& guide, const F& choice,
                                                                      const Pair<F>& direction, IndirectSample<F>& s) {
     const Mask<F> mixes = guide.share > F(0.f), guided = mixes && choice < guide.share;
     if (any(guided)) {
         const F which = min(F(choice / select(guided, guide.share, F(1.f))), F(one_minus_epsilon));
-        s.wi = select<F>(guided, sample_caster_direction<F>(scene.caustic_casters, guide, which, direction.x(), direction.y()), s.wi);
+        s.wi = select<F>(guided, sample_guided_direction<F>(scene.guides, guide, which, direction.x(), direction.y()), s.wi);
         s.bsdf.wi = select<F>(guided, p.shading.frame.to_local(s.wi), s.bsdf.wi);
     }
     const F cosine = cosine_hemisphere_pdf(s.bsdf.wi.z);
     s.bsdf.valid = select(mixes, cosine > F(0.f), s.bsdf.valid);
-    s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.caustic_casters, guide, s.wi, cosine), s.bsdf.pdf);
+    s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.guides, guide, s.wi, cosine), s.bsdf.pdf);
     s.pdf_ratio = select(mixes && s.bsdf.valid, cosine / s.bsdf.pdf, F(1.f));
     s.bsdf.weight = select<F>(mixes, p.bsdf.diffuse * s.pdf_ratio, s.bsdf.weight);
 }

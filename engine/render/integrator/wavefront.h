@@ -95,6 +95,7 @@ template <Features S, class F>
         if constexpr (S.has(Feature::dispersion)) store(q.dispersed + q.size, Int<F>(0));
         append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
     }
+    if (scratch.photons) emit_photons(*scratch.photons, q);
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
@@ -158,6 +159,8 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
         if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
+        if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
+        if (scratch.photons && bounce > 0) record_photons<F>(*scratch.photons, path, step.next, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
     return light_timer.estimate();
@@ -189,6 +192,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
     bool unshared_is_stashed = false;
+    const auto radiance_of = [&](int slot) { return dot(luminance_weights, Vec3d{scratch.r[slot], scratch.g[slot], scratch.b[slot]}); };
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0; ++bounce) {
@@ -215,8 +219,10 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         timer.end(Stage::shade, light_ticks);
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         timer.end(Stage::shadow);
+        if (scratch.guiding) scratch.guiding->note_arrived(radiance_of);
         std::swap(now, next);
     }
+    if (scratch.guiding) scratch.guiding->finish(radiance_of);
     if (!unshared_is_stashed) return;
     reuse_paths<F>(context, job, scratch);
     timer.end(Stage::reuse);

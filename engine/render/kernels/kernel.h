@@ -11,6 +11,7 @@
 #include "render/kernels/group_columns.h"
 #include "render/kernels/reuse_columns.h"
 #include "render/lights/escape_trial.h"
+#include "render/lights/guiding_trial.h"
 #include "render/lights/shadow_trial.h"
 #include "shading/features.h"
 
@@ -99,6 +100,8 @@ struct TileScratch {
     std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes
     std::unique_ptr<std::vector<ShadowTrial>> trials; // of the tile's shadow rays, accumulated; null: not recorded
     std::unique_ptr<EscapeTrials> escapes;            // null: not recorded
+    std::unique_ptr<GuidingTrials> guiding;           // null: not recorded; not with path reuse
+    std::unique_ptr<PhotonTrials> photons;            // null: paths begin at the camera; else one for each path of the tile
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

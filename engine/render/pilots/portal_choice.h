@@ -27,6 +27,7 @@ public:
     void decide(PortalPilot pilot);
 
     bool pays() const { return pilot_ && pilot_->figures && pilot_->figures->cost() < largest_cost; }
+    bool gains_much() const { return pays() && pilot_->figures->cost() < 0.5; }
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
 

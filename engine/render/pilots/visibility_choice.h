@@ -14,9 +14,9 @@ namespace blush {
 class RenderScene;
 
 // The first sample of each pixel and all samples of coarse images are rendered without learned visibility, so that no edit waits for a
-// pilot. The pilot (visibility_pilot.h) decides about the other samples. It depends on the scene and the settings alone, not on the
-// image's samples: so every sample is unbiased, and a sample is the same in any range in which it is rendered. A scene without several
-// lights, or in which all lights are equally visible, gets none.
+// pilot (but see LearnedSampling::renews_first). The pilot (visibility_pilot.h) decides about the other samples. It depends on the scene
+// and the settings alone, not on the image's samples: so every sample is unbiased, and a sample is the same in any range in which it is
+// rendered. A scene without several lights, or in which all lights are equally visible, gets none.
 class VisibilityChoice {
 public:
     VisibilityChoice() = default;
@@ -30,6 +30,7 @@ public:
 
     // True if samples after the first select lights by learned visibility.
     bool pays() const { return learned_ && learned_->second_moment() <= largest_second_moment && learned_->grid().factors; }
+    bool gains_much() const { return pays() && learned_->second_moment() < 0.5; }
     // The scene's tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(const SceneTables& scene, int64_t sample) const;
 

@@ -108,7 +108,7 @@ TEST(FeatureReport, CausticGuidingIsUsedIfMirrorsOrGlassFocusLight) {
     place(scene, ceiling_quad(1, 3), emitter(1));
     const Compiled lit(scene);
     EXPECT_TRUE(line(lit.feature_report(), "kernel", name).used);
-    const CausticCasterTables casters = lit.scene.tables().caustic_casters;
+    const CausticCasterTables casters = lit.scene.tables().guides.casters;
     ASSERT_EQ(casters.count, 1);
     EXPECT_NEAR(casters.spheres[0].radius, 0.5f, 1e-4f);
     EXPECT_NEAR(casters.spheres[0].center.y, 1, 1e-6f);

@@ -1,0 +1,251 @@
+#include "render/lights/guiding_field.h"
+
+#include "render/lights/receiver_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr size_t enough_photons = 128;                         // of a region; else a larger one is taken,
+constexpr size_t min_photons = 16;                             // and so many of the largest
+constexpr size_t enough_in_node = 12;                          // of a node that is split
+constexpr double even_share = 0.02;                            // of a node's samples, spread over its quadrants
+constexpr double caustic_weight = 2;                           // k
+constexpr double min_guided = 1.0 / 32;                        // share of samples
+constexpr double dropped_estimates = 0.02;                     // of a region's largest: the caustic itself
+constexpr size_t measured_photons = 64;                        // of a region, at most
+constexpr std::array<int, 4> sides_in_cells{192, 128, 96, 64}; // along the longest side of the grid,
+constexpr int32_t max_cells = 64 * 64 * 64;                    // for so many in all
+constexpr std::array<int32_t, 4> region_sides{1, 2, 4, 8};     // in cells
+
+// A photon on the unit square of directions.
+struct GuidingPoint {
+    float x, y;
+    double flux;
+    const GuidingTrial* photon;
+};
+using GuidingPoints = std::span<GuidingPoint>;
+
+bool is_usable(const GuidingTrial& t) {
+    return is_finite_position(t.position) && is_finite_position(t.direction) && std::isfinite(t.value) && t.value >= 0 &&
+           dot(t.normal, t.normal) > 0;
+}
+bool has_flux(const GuidingTrial& t) { return is_usable(t) && t.value > 0; }
+
+// A quadtree as in GuidingTables, with node numbers from 0.
+struct GuidingQuadtree {
+    std::vector<int32_t> nodes;
+    std::vector<float> shares;
+
+    // The number of the node, -1: a leaf.
+    int32_t build(GuidingPoints points, int level = 0) {
+        if (level == guiding_levels || (level > 0 && points.size() < enough_in_node)) return -1;
+        const size_t node = nodes.size() / 4;
+        nodes.resize(nodes.size() + 4);
+        shares.resize(shares.size() + 4);
+        std::array<double, 4> flux{};
+        const auto upper = std::stable_partition(points.begin(), points.end(), [](const GuidingPoint& p) { return p.y < 0.5f; });
+        for (size_t half = 0; half < 2; ++half) {
+            const auto begin = half ? upper : points.begin(), end = half ? points.end() : upper;
+            const auto right = std::stable_partition(begin, end, [](const GuidingPoint& p) { return p.x < 0.5f; });
+            for (size_t side = 0; side < 2; ++side) {
+                const GuidingPoints quadrant(side ? right : begin, side ? end : right);
+                for (GuidingPoint& p : quadrant) {
+                    p = {2 * p.x - float(side), 2 * p.y - float(half), p.flux, p.photon};
+                    flux[2 * half + side] += p.flux;
+                }
+                nodes[4 * node + 2 * half + side] = build(quadrant, level + 1);
+            }
+        }
+        const double all = flux[0] + flux[1] + flux[2] + flux[3];
+        for (size_t k = 0; k < 4; ++k) shares[4 * node + k] = float(all > 0 ? (1 - even_share) * (flux[k] / all) + even_share / 4 : 0.25);
+        return int32_t(node);
+    }
+};
+
+// The trials by cell and side, in their order.
+template <class T> struct ByCell {
+    std::vector<size_t> begins;
+    std::vector<T> sorted;
+
+    template <class Wanted, class Make>
+    ByCell(std::span<const GuidingTrial> trials, const ReceiverGrid& grid, const Wanted& wanted, const Make& make)
+        : begins(size_t(grid.count()) * guiding_sides + 1) {
+        const auto cell_of = [&](const GuidingTrial& t) { return size_t(guiding_cell<float>(grid, t.position, t.normal)); };
+        for (const GuidingTrial& t : trials)
+            if (wanted(t)) ++begins[cell_of(t) + 1];
+        for (size_t k = 1; k < begins.size(); ++k) begins[k] += begins[k - 1];
+        sorted.resize(begins.back());
+        std::vector<size_t> next(begins.begin(), begins.end() - 1);
+        for (const GuidingTrial& t : trials)
+            if (wanted(t)) sorted[next[cell_of(t)]++] = make(t);
+    }
+    std::span<const T> of(size_t cell) const { return std::span(sorted).subspan(begins[cell], begins[cell + 1] - begins[cell]); }
+    std::vector<T> of_all(const std::vector<size_t>& cells) const {
+        std::vector<T> all;
+        for (const size_t cell : cells) all.insert(all.end(), of(cell).begin(), of(cell).end());
+        return all;
+    }
+};
+
+// Moments of estimates of the irradiance at a vertex.
+struct Estimates {
+    double irradiance = 0, moment = 0;
+};
+// `values`: of light other than the caustic, but for some of the largest, which are the caustic itself.
+Estimates estimates_of(std::vector<double> values) {
+    const auto kept = std::ptrdiff_t(double(values.size()) * (1 - dropped_estimates));
+    if (kept < 1) return {};
+    std::ranges::nth_element(values, values.begin() + kept - 1);
+    Estimates e;
+    for (std::ptrdiff_t k = 0; k < kept; ++k) {
+        e.irradiance += values[size_t(k)] / double(kept);
+        e.moment += values[size_t(k)] * values[size_t(k)] / double(kept);
+    }
+    return e;
+}
+
+struct Region {
+    const std::vector<size_t>* cells; // with photons
+    GuidingQuadtree tree;
+    double guided = 0;                              // share of samples
+    double paths = 0;                               // vertices of paths in it
+    double squared_mean = 0, with = 0, without = 0; // of estimates of the irradiance: squared mean, variances
+
+    // Variances with a tree of half of the photons, estimated by the other half: its own would find it too good. `caustic`: irradiance.
+    void compare(const std::vector<GuidingPoint>& all, double caustic, const Estimates& other, const CausticCasterTables& casters) {
+        std::vector<GuidingPoint> half, points;
+        for (size_t k = 0; k < all.size(); ++k) (k % 2 == 0 ? half : points).push_back(all[k]);
+        GuidingQuadtree of_half;
+        of_half.build(half);
+        const int32_t root = 0;
+        const GuidingTables own{&root, nullptr, of_half.shares.data(), of_half.nodes.data(), {}};
+        double weight = 0, moment_with = 0, moment_without = 0, cast = 0;
+        const size_t step = points.size() / measured_photons + 1;
+        for (size_t k = 0; k < points.size(); k += step) {
+            const GuidingTrial& photon = *points[k].photon;
+            const float cosine = cosine_hemisphere_pdf(dot(photon.normal, photon.direction));
+            const double learned = double(learned_density<float>(own, root, photon.direction, true)) * double(0.25f * inv_pi);
+            const auto by_caster = direction_guide_at<float>({casters, {}}, photon.position, photon.normal, true);
+            const double plain = double(guided_pdf<float>({casters, {}}, by_caster, photon.direction, cosine));
+            if (!(plain > 0)) continue;
+            weight += points[k].flux;
+            cast += points[k].flux * double(by_caster.share);
+            moment_with += points[k].flux * learned / ((1 - guided) * double(cosine) + guided * learned);
+            moment_without += points[k].flux * learned / plain;
+        }
+        if (!(weight > 0)) return;
+        const double mean = caustic + other.irradiance, squared = caustic * caustic / weight;
+        squared_mean = mean * mean;
+        without = std::max(0.0, other.moment + squared * moment_without - squared_mean);
+        with = std::max(0.0, other.moment * (1 - cast / weight) / (1 - guided) + squared * moment_with - squared_mean);
+    }
+};
+
+// Over the regions, weighted by their vertices of paths.
+std::optional<PilotFigures> figures_of(const std::vector<Region>& regions) {
+    double with = 0, without = 0, relative_with = 0, relative_without = 0, log_ratios = 0, paths = 0;
+    for (const Region& r : regions) {
+        if (!(r.paths > 0 && r.with > 0 && r.without > 0)) continue;
+        paths += r.paths;
+        with += r.paths * r.with;
+        without += r.paths * r.without;
+        relative_with += r.paths * r.with / r.squared_mean;
+        relative_without += r.paths * r.without / r.squared_mean;
+        log_ratios += r.paths * std::log(r.with / r.without);
+    }
+    if (!(paths > 0)) return std::nullopt;
+    return PilotFigures{.mse = with / without, .relmse = relative_with / relative_without, .typical = std::exp(log_ratios / paths)};
+}
+
+} // namespace
+
+GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
+                           const CausticCasterTables& casters, const Workers& workers) {
+    std::vector<Vec3> positions;
+    for (const GuidingTrial& t : photons)
+        if (has_flux(t)) positions.push_back(t.position);
+    for (const int side : sides_in_cells)
+        if (grid_ = make_receiver_grid(positions, side); grid_.count() <= max_cells) break;
+    if (grid_.cells_per_metre == 0) return;
+    const ByCell<GuidingPoint> by_cell(photons, grid_, has_flux, [](const GuidingTrial& t) {
+        const Vec2T<float> at = guiding_point<float>(t.direction);
+        return GuidingPoint{at.x, at.y, double(t.value), &t};
+    });
+    const ByCell<double> found(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
+
+    // A cell's region is the smallest with enough photons.
+    const size_t cells = by_cell.begins.size() - 1;
+    std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of; // by size, block and side
+    std::array<std::vector<int32_t>, region_sides.size()> region_of;
+    const auto block_of = [&](size_t size, size_t cell) {
+        const CellBlocks blocks{grid_, region_sides[size]};
+        return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
+    };
+    for (size_t size = 0; size < region_sides.size(); ++size) {
+        cells_of[size].resize(size_t(CellBlocks{grid_, region_sides[size]}.count()) * guiding_sides);
+        region_of[size].assign(cells_of[size].size(), -1);
+        for (size_t k = 0; k < cells; ++k)
+            if (!by_cell.of(k).empty()) cells_of[size][block_of(size, k)].push_back(k);
+    }
+    std::vector<Region> regions;
+    std::vector<int32_t> of_cell(cells, -1);
+    for (size_t k = 0; k < cells; ++k) {
+        if (by_cell.of(k).empty()) continue;
+        for (size_t size = 0; size < region_sides.size(); ++size) {
+            const size_t block = block_of(size, k);
+            size_t count = 0;
+            for (const size_t cell : cells_of[size][block]) count += by_cell.of(cell).size();
+            if (count < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
+            if (region_of[size][block] < 0) {
+                region_of[size][block] = int32_t(regions.size());
+                regions.push_back({.cells = &cells_of[size][block]});
+            }
+            of_cell[k] = region_of[size][block];
+            break;
+        }
+    }
+    const double cell_area = 1 / (double(grid_.cells_per_metre) * double(grid_.cells_per_metre));
+    workers.for_each(int64_t(regions.size()), {}, [&](int64_t i, unsigned) {
+        Region& region = regions[size_t(i)];
+        std::vector<GuidingPoint> points = by_cell.of_all(*region.cells);
+        double flux = 0;
+        for (const GuidingPoint& p : points) flux += p.flux;
+        const double caustic = flux / (double(emitted) * cell_area * double(region.cells->size()));
+        std::vector<double> values = found.of_all(*region.cells);
+        region.paths = double(values.size());
+        const Estimates other = estimates_of(std::move(values));
+        const double weighted = caustic_weight * caustic;
+        region.guided = std::clamp(weighted / (weighted + std::sqrt(other.moment)), min_guided, double(max_guided_share));
+        region.compare(points, caustic, other, casters);
+        region.tree.build(points);
+    });
+    figures_ = figures_of(regions);
+
+    std::vector<int32_t> root_of;
+    for (const Region& region : regions) {
+        const auto first = int32_t(nodes_.size() / 4);
+        root_of.push_back(first);
+        for (const int32_t node : region.tree.nodes) nodes_.push_back(node < 0 ? -1 : node + first);
+        shares_.insert(shares_.end(), region.tree.shares.begin(), region.tree.shares.end());
+    }
+    if (regions.empty()) return;
+    roots_.assign(cells, -1);
+    guided_.assign(cells, 0);
+    for (size_t k = 0; k < cells; ++k) {
+        if (of_cell[k] < 0) continue;
+        roots_[k] = root_of[size_t(of_cell[k])];
+        guided_[k] = float(regions[size_t(of_cell[k])].guided);
+    }
+}
+
+GuidingTables GuidingField::tables() const {
+    if (roots_.empty()) return {};
+    return {roots_.data(), guided_.data(), shares_.data(), nodes_.data(), grid_};
+}
+
+} // namespace blush

@@ -1,0 +1,60 @@
+// What the pilot of path guiding records: where photons arrive, and what paths find.
+#pragma once
+
+#include "core/vec.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+// A photon on a diffuse surface, or a direction that a path sampled there.
+struct GuidingTrial {
+    Vec3 position, normal, direction; // direction: away from the surface, unit; normal: zero if light is received from both sides
+    float value;                      // photon: flux, luminance; path: irradiance that it estimates, luminance
+};
+
+// A photon as it leaves a light.
+struct EmittedPhoton {
+    Vec3 origin{0, 0, 0}, direction{0, 0, 1};
+    float flux = 0; // luminance: nits m2 sr
+};
+
+// The photons of a tile: the kernel traces them instead of camera rays, and records where they arrive after smooth surfaces.
+struct PhotonTrials {
+    std::vector<EmittedPhoton> emitted; // by slot
+    std::vector<GuidingTrial> arrived;
+};
+
+// The trials of a tile's paths, accumulated.
+struct GuidingTrials {
+    std::vector<GuidingTrial> all;
+
+    // `pdf`: of the direction times beta's luminance behind the vertex over the cosine: what radiance is divided by.
+    void add(const GuidingTrial& trial, int slot, double factor) {
+        all.push_back(trial);
+        open.push_back({slot, factor, 0});
+    }
+    // Call when the light that arrives at the last vertices has been added to the slots: later light comes from the directions of the
+    // trials added since the last call. `radiance(slot)`: luminance so far.
+    template <class Radiance> void note_arrived(const Radiance& radiance) {
+        for (; noted < open.size(); ++noted) open[noted].before = radiance(open[noted].slot);
+    }
+    // Call at the end of the tile.
+    template <class Radiance> void finish(const Radiance& radiance) {
+        const size_t first = all.size() - open.size();
+        for (size_t k = 0; k < open.size(); ++k) all[first + k].value = float((radiance(open[k].slot) - open[k].before) * open[k].factor);
+        open.clear();
+        noted = 0;
+    }
+
+    struct Open {
+        int slot;
+        double factor, before; // cosine / (pdf times luminance of the throughput); luminance of the slot's radiance at the vertex
+    };
+    std::vector<Open> open; // of this tile's trials
+    size_t noted = 0;
+};
+
+} // namespace blush

@@ -1,0 +1,47 @@
+#include "render/pilots/guiding_choice.h"
+
+#include "render/compile/render_scene.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// Why path guiding cannot gain anything; null if it may.
+const char* why_no_guiding(const RenderSettings& settings, const RenderScene& scene) {
+    if (scene.tables().guides.casters.count == 0) return "no mirror or glass has light to focus";
+    if (!scene.may_be_lambertian()) return "no surface is Lambertian";
+    if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";
+    return nullptr;
+}
+
+} // namespace
+
+GuidingChoice::GuidingChoice(const RenderSettings& settings, const RenderScene& scene) : useless_(why_no_guiding(settings, scene)) {}
+
+void GuidingChoice::decide(GuidingField field) {
+    if (!useless_) field_ = std::move(field);
+}
+
+SceneTables GuidingChoice::tables(SceneTables scene, int64_t sample) const {
+    if (sample > 0 && pays()) scene.guides.learned = field_->tables();
+    return scene;
+}
+
+FeatureUse GuidingChoice::report() const {
+    FeatureUse use{.part = "kernel", .name = "path guiding", .used = pays(), .why = {}};
+    if (useless_)
+        use.why = useless_;
+    else if (!field_)
+        use.why = "a pilot decides after the first sample";
+    else if (!field_->figures())
+        use.why = "pilot: no photon arrives on a surface that is seen";
+    else
+        use.why = fmt::format("pilot: expected variance is {:.2f} of that without", field_->figures()->cost());
+    if (use.used) use.bytes = field_->memory_bytes();
+    if (field_) use.pilot = field_->figures();
+    return use;
+}
+
+} // namespace blush

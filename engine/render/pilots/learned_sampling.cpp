@@ -1,0 +1,26 @@
+#include "render/pilots/learned_sampling.h"
+
+#include "render/pilots/guiding_pilot.h"
+#include "render/pilots/portal_pilot.h"
+#include "render/pilots/visibility_pilot.h"
+
+#include <utility>
+
+namespace blush {
+
+bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const Workers& workers,
+                             std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
+    const SceneTables scene = *context.scene;
+    const auto run = [&](auto& choice, const auto& pilot) {
+        if (!choice.needs_pilot()) return true;
+        const SceneTables learned = tables(scene, 1);
+        context.scene = &learned;
+        auto result = pilot(context, kernel, workers, scratch, wanted);
+        if (!result) return false;
+        choice.decide(*std::move(result));
+        return true;
+    };
+    return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_path_guiding);
+}
+
+} // namespace blush

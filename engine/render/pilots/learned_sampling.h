@@ -1,0 +1,51 @@
+// What pilots learn about sampling lights and directions: visibility of lights, portals, path guiding.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/compile/feature_report.h"
+#include "render/kernels/kernel.h"
+#include "render/pilots/guiding_choice.h"
+#include "render/pilots/portal_choice.h"
+#include "render/pilots/visibility_choice.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace blush {
+
+class LearnedSampling {
+public:
+    LearnedSampling() = default;
+    // For a new image of a compiled scene.
+    LearnedSampling(const RenderSettings& settings, const RenderScene& scene)
+        : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene) {}
+
+    bool needs_pilot() const { return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot(); }
+    // Runs the pilots that are needed; each measures the samples as those before it have decided. `context`: as for the film at full
+    // resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. False if
+    // `wanted` returned false.
+    bool decide(KernelContext context, const Kernel& kernel, const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
+                const std::function<bool()>& wanted);
+
+    // True if other samples than the first are rendered in another way.
+    bool pays() const { return visibility_.pays() || portals_.pays() || guiding_.pays(); }
+    // True if the noise of a first sample without would be more than twice that of the others: below, discarding it would lose more than
+    // its noise takes from the mean.
+    bool renews_first() const { return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much(); }
+    // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as this object and
+    // the scene.
+    SceneTables tables(const SceneTables& scene, int64_t sample) const {
+        return guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
+    }
+
+    FeatureReport report() const { return {visibility_.report(), portals_.report(), guiding_.report()}; }
+
+private:
+    VisibilityChoice visibility_;
+    PortalChoice portals_;
+    GuidingChoice guiding_;
+};
+
+} // namespace blush

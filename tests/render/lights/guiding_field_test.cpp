@@ -1,0 +1,156 @@
+// The field of path guiding: from synthetic trials, where it sends samples, and what it does not depend on.
+#include "render/lights/guiding_field.h"
+
+#include "tests/support/random_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+namespace blush::test::TEST_FILE {
+namespace {
+
+const Vec3 source = normalize(Vec3{1, 2, 0.5f});
+constexpr int64_t emitted = 100'000;
+
+struct Trials {
+    std::vector<GuidingTrial> photons, paths;
+};
+
+// Photons on a floor of 4 x 4 m: on the left half those of a caustic from around `source`, on the right half few from anywhere. Paths
+// find light of `irradiance` everywhere.
+Trials trials(float scale = 1, float brightness = 1, float irradiance = 0.01f) {
+    RandomNumbers random(9);
+    Trials all;
+    for (int i = 0; i < 40'000; ++i) {
+        const Vec3 position{random(-2, 2), 0, random(-2, 2)};
+        Vec3 d = normalize(source + random.direction() * 0.1f);
+        if (position.x > 0) d = random.direction();
+        d.y = std::abs(d.y);
+        all.photons.push_back({position * scale, {0, 1, 0}, d, brightness * scale * scale * (position.x < 0 ? 1 : 1e-4f)});
+        all.paths.push_back({position * scale, {0, 1, 0}, random.direction(), brightness * irradiance * random(0, 2)});
+    }
+    return all;
+}
+
+GuidingField learned(const Trials& t, unsigned threads = 1, std::span<const CasterSphere> casters = {}) {
+    return GuidingField(t.photons, emitted, t.paths, {casters.data(), int32_t(casters.size())}, Workers(threads));
+}
+
+int32_t cell_at(const GuidingTables& t, const Vec3& position, const Vec3& normal = {0, 1, 0}) {
+    return guiding_cell<float>(t.grid, position, normal);
+}
+
+TEST(GuidingField, SendsSamplesTowardsTheLight) {
+    const GuidingField field = learned(trials());
+    const GuidingTables t = field.tables();
+    ASSERT_TRUE(t.roots);
+    const int32_t root = t.roots[cell_at(t, {-1, 0, 0.3f})];
+    ASSERT_GE(root, 0);
+    EXPECT_EQ(t.roots[cell_at(t, {-1, 0, 0.3f}, {0, -1, 0})], -1) << "nothing arrives from below";
+    RandomNumbers random(2);
+    int towards = 0;
+    constexpr int samples = 4000;
+    for (int i = 0; i < samples; ++i) towards += dot(sample_learned_direction<float>(t, root, random(), random(), true), source) > 0.95f;
+    EXPECT_GT(towards, samples * 0.8);
+}
+
+// Flux of 20,000 photons of 1 among 100,000 on 8 m2 is an irradiance of 0.025.
+TEST(GuidingField, ShareFollowsTheIrradiance) {
+    for (const float irradiance : {0.05f, 0.5f}) {
+        const GuidingField field = learned(trials(1, 1, irradiance));
+        const GuidingTables t = field.tables();
+        double sum = 0;
+        int cells = 0;
+        for (float x = -1.9f; x < -0.2f; x += 0.1f)
+            for (float z = -1.9f; z < 1.9f; z += 0.1f, ++cells) sum += double(t.guided[cell_at(t, {x, 0, z})]);
+        // The root of the second moment of values that are uniform in [0, 2 E), without the largest of them, is about 1.13 E.
+        const double weighted = 2 * 0.025, expected = weighted / (weighted + 1.13 * double(irradiance));
+        EXPECT_NEAR(sum / cells, expected, 0.15 * expected) << irradiance;
+        EXPECT_LT(t.guided[cell_at(t, {1, 0, 0})], 0.04f) << "no caustic there";
+    }
+    const GuidingField dark = learned(trials(1, 1, 0));
+    EXPECT_EQ(dark.tables().guided[cell_at(dark.tables(), {-1, 0, 0})], max_guided_share);
+}
+
+// Cosine sampling finds the source, a cone of 0.01 sr or so, seldom; where the other light is strong, this does not matter.
+TEST(GuidingField, ExpectsWhatItGains) {
+    const auto gain = [](float irradiance, std::span<const CasterSphere> casters = {}) {
+        const std::optional<PilotFigures> figures = learned(trials(1, 1, irradiance), 1, casters).figures();
+        EXPECT_TRUE(figures);
+        return figures ? figures->mse : 0;
+    };
+    EXPECT_LT(gain(0.01f), 0.1);
+    EXPECT_GT(gain(10), 0.9);
+    EXPECT_LE(gain(10), 1.2);
+    // A caster that is guided without a field leaves less to gain.
+    const CasterSphere ball{source * 20.f, 4};
+    EXPECT_GT(gain(0.01f, {&ball, 1}), 2 * gain(0.01f));
+    EXPECT_FALSE(learned({trials().photons, {}}).figures()) << "no path meets a region";
+}
+
+TEST(GuidingField, IsTheSameForAnyNumberOfThreads) {
+    const Trials all = trials();
+    EXPECT_EQ(learned(all, 1), learned(all, 3));
+}
+
+TEST(GuidingField, ScalesExactlyWithPowersOfTwo) {
+    const GuidingField plain = learned(trials());
+    for (const auto& [scale, brightness] : {std::pair{0x1p-20f, 1.f}, {0x1p20f, 1.f}, {1.f, 2.f}, {1.f, 0x1p-31f}}) {
+        const GuidingField field = learned(trials(scale, brightness));
+        EXPECT_EQ(field.figures(), plain.figures());
+        RandomNumbers random(6);
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 at{random(-2, 2), 0, random(-2, 2)};
+            const int32_t cell = cell_at(plain.tables(), at), root = plain.tables().roots[cell];
+            ASSERT_EQ(cell_at(field.tables(), at * scale), cell);
+            ASSERT_EQ(field.tables().roots[cell], root);
+            EXPECT_EQ(field.tables().guided[cell], plain.tables().guided[cell]);
+            const float u = random(), v = random();
+            if (root < 0) continue;
+            EXPECT_EQ(sample_learned_direction<float>(field.tables(), root, u, v, true),
+                      sample_learned_direction<float>(plain.tables(), root, u, v, true));
+        }
+    }
+}
+
+TEST(GuidingField, IgnoresTrialsThatAreNotFinite) {
+    const Trials all = trials();
+    Trials more = all;
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const Vec3 up{0, 1, 0};
+    for (const GuidingTrial& t : {GuidingTrial{{nan, 0, 0}, up, up, 1},
+                                  {{0, 0, 0}, {0, 0, 0}, up, 1},
+                                  {{0, 0, 0}, {nan, 0, 0}, up, 1},
+                                  {{0, 0, 0}, up, {inf, 0, 0}, 1},
+                                  {{0, 0, 0}, up, up, nan},
+                                  {{0, 0, 0}, up, up, inf},
+                                  {{0, 0, 0}, up, up, -1}})
+        for (int i = 0; i < 100; ++i) {
+            more.photons.push_back(t);
+            more.paths.push_back(t);
+        }
+    EXPECT_EQ(learned(more), learned(all));
+}
+
+TEST(GuidingField, WithoutPhotonsLearnsNothing) {
+    EXPECT_FALSE(learned({{}, trials().paths}).tables().roots);
+    EXPECT_FALSE(learned({}).figures());
+    EXPECT_FALSE(learned(trials(0)).tables().roots) << "all of them in one place";
+    // Little and much flux neither overflow nor divide by 0.
+    for (const float brightness : {0.f, 1e-38f, 1e36f}) {
+        const GuidingField field = learned(trials(1, brightness));
+        if (!field.tables().roots) continue;
+        EXPECT_GT(brightness, 0);
+        const int32_t cell = cell_at(field.tables(), {-1, 0, 0.3f});
+        EXPECT_GE(field.tables().guided[cell], 0);
+        EXPECT_LE(field.tables().guided[cell], max_guided_share);
+        const Vec3 d = sample_learned_direction<float>(field.tables(), field.tables().roots[cell], 0.3f, 0.7f, true);
+        EXPECT_NEAR(dot(d, d), 1, 1e-5);
+    }
+}
+
+} // namespace
+} // namespace blush::test::TEST_FILE

@@ -1,0 +1,203 @@
+// The pilot of path guiding: where it pays, that it does not depend on how the image is rendered, and that it adds no bias.
+#include "render/pilots/guiding_pilot.h"
+
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "render/integrator/kernel_settings.h"
+#include "tests/render/pilots/pilot_checks.h"
+#include "tests/render/rendered_image.h"
+#include "tests/render/scenes.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace blush::test::TEST_FILE {
+namespace {
+
+// A glass ball and a mirror ball between a floor and a ceiling.
+Scene balls() {
+    Scene scene;
+    place(scene, floor_quad(3), lambert(0.7f));
+    place(scene, ceiling_quad(3, 3), lambert({0.3f, 0.6f, 0.9f}));
+    place(scene, sphere(false), glass(0, 1.5f), at({-0.9f, 0.8f, 0.3f}, 0.7f));
+    place(scene, sphere(false), metal(0), at({0.9f, 0.9f, -0.4f}, 0.8f));
+    scene.view = looking({0, 1.5f, 6}, {0, 1.5f, 0}, 0.6f);
+    return scene;
+}
+Scene balls_under_lamp() {
+    Scene scene = balls();
+    place(scene, ceiling_quad(0.5f, 2.9f), emitter(10));
+    return scene;
+}
+Scene balls_in_sun() {
+    Scene scene;
+    place(scene, floor_quad(3), lambert(0.7f));
+    place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.7f));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.angle_radians = 0.2f;
+    sun.intensity = 3;
+    place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    scene.view = looking({0, 2, 5}, {0, 0.5f, 0}, 0.6f);
+    return scene;
+}
+// All light comes through the glass: the lamp is in the middle of a closed ball.
+Scene bulb() {
+    Scene scene;
+    place(scene, floor_quad(3), lambert(0.7f));
+    place(scene, ceiling_quad(3, 3), lambert({0.3f, 0.6f, 0.9f}));
+    place(scene, sphere(false), glass(0, 1.3f), at({0, 1.5f, 0}, 0.6f));
+    place(scene, sphere(false), emitter(40), at({0, 1.5f, 0}, 0.15f));
+    scene.view = looking({0, 1.5f, 6}, {0, 0.5f, 0}, 0.6f);
+    return scene;
+}
+
+RenderSettings settings_of(int64_t spp) { return settings_for(80, 48, spp); }
+
+constexpr const char* feature = "path guiding";
+FeatureUse decided(const Scene& scene, const RenderSettings& settings) { return decided_line(scene, settings, feature); }
+
+TEST(GuidingPilot, PaysWhereLightIsFocused) {
+    for (const Scene& scene : {balls_under_lamp(), balls_in_sun(), bulb()}) {
+        const FeatureUse use = decided(scene, settings_of(8));
+        EXPECT_TRUE(use.used) << use.why;
+        ASSERT_TRUE(use.pilot) << use.why;
+        EXPECT_LT(use.pilot->cost(), 0.5) << use.why;
+        EXPECT_GT(use.bytes.value_or(0), 0);
+    }
+}
+
+TEST(GuidingPilot, IsLeftOutWhereNothingFocuses) {
+    EXPECT_EQ(decided(shipped_scene("cornell"), settings_of(8)).why, "no mirror or glass has light to focus");
+    RenderSettings settings = settings_of(8);
+    settings.strategy = Strategy::bsdf;
+    EXPECT_EQ(decided(balls_under_lamp(), settings).why, "no mirror or glass has light to focus");
+    settings = settings_of(8);
+    settings.max_bounces = 1;
+    EXPECT_EQ(decided(balls_under_lamp(), settings).why, "paths end before light has been focused");
+    Scene hidden = balls_in_sun(); // a roof keeps the sun from the ball
+    place(hidden, ceiling_quad(3, 2), lambert(0.5f));
+    EXPECT_FALSE(decided(hidden, settings_of(8)).used);
+}
+
+// BSDF sampling alone is not guided: it finds all caustics by chance.
+TEST(GuidingPilot, AgreesWithBsdfSampling) {
+    for (const Scene& scene : {balls_under_lamp(), balls_in_sun(), bulb()}) {
+        RenderSettings settings = settings_for(32, 24, 256);
+        ASSERT_TRUE(decided(scene, settings).used);
+        const auto guided = render(scene, settings).blocks(8, 8);
+        settings.reuse = 8;
+        settings.seed = 5;
+        const auto shared = render(scene, settings).blocks(8, 8);
+        settings.reuse = 1;
+        settings.strategy = Strategy::bsdf;
+        settings.seed = 3;
+        settings.spp = 4096;
+        const auto by_chance = render(scene, settings).blocks(8, 8);
+        EXPECT_TRUE(same_means(guided, by_chance, statistics::sidak(statistics::significance, 2)));
+        EXPECT_TRUE(same_means(shared, by_chance, statistics::sidak(statistics::significance, 2))) << "path reuse";
+    }
+}
+
+// Sum of relative squared errors of all pixels but the worst hundredth, which fireflies decide.
+double error_of(const std::vector<float>& rgba, const std::vector<float>& truth) {
+    std::vector<double> errors;
+    for (size_t i = 0; i < rgba.size(); i += 4) {
+        const double about = double(truth[i]), d = double(rgba[i]) - about;
+        errors.push_back(d * d / (about * about + 0.01));
+    }
+    std::ranges::sort(errors);
+    return std::accumulate(errors.begin(), errors.end() - std::ptrdiff_t(errors.size() / 100), 0.0);
+}
+
+// Against many samples: without guiding, most pixels miss the caustic, and the variance of few samples does not show it.
+TEST(GuidingPilot, ReducesTheError) {
+    for (const Scene& scene : {balls_in_sun(), balls_under_lamp()}) {
+        RenderSettings settings = settings_of(1024);
+        const std::vector<float> truth = rendered_in_parts(scene, settings, {{0, 1024}}).rgba;
+        statistics::Moments gains;
+        for (uint32_t repeat = 1; repeat <= 8; ++repeat) {
+            settings = settings_of(17);
+            settings.seed = repeat;
+            const Frame guided = rendered_in_parts(scene, settings, {{1, 16}});
+            std::vector<float> plain(truth.size());
+            for (uint32_t k = 0; k < 16; ++k) {
+                settings.seed = 100 * repeat + k;
+                const Frame first = rendered_in_parts(scene, settings, {{0, 1}});
+                for (size_t i = 0; i < plain.size(); ++i) plain[i] += first.rgba[i] / 16;
+            }
+            gains.add(error_of(plain, truth) - error_of(guided.rgba, truth));
+        }
+        EXPECT_GT(gains.mean, 4 * gains.error());
+    }
+}
+
+TEST(GuidingPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
+    const Scene scene = balls_under_lamp();
+    const RenderSettings settings = settings_of(4);
+    RenderScene compiled;
+    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(2));
+    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
+    const auto learn = [&](const Kernel& kernel, unsigned threads) {
+        const Workers workers(threads);
+        std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
+        return *learn_path_guiding(context, kernel, workers, scratch, {});
+    };
+    const GuidingField expected = learn(kernels_of("scalar").back(), 1);
+    ASSERT_TRUE(expected.figures());
+    for (const std::string_view isa : runnable_isas()) {
+        const auto kernels = kernels_of(isa);
+        const auto smallest = std::ranges::find_if(kernels, [&](const Kernel& k) { return k.features.contains(compiled.features()); });
+        for (const unsigned threads : {1u, 3u}) EXPECT_EQ(learn(*smallest, threads), expected) << isa << " " << threads;
+    }
+}
+
+// What is gained is so much that the first sample is rendered again when a second one follows.
+TEST(GuidingPilot, DecidesOverAllSamplesOfSeveral) {
+    const Scene scene = balls_in_sun();
+    RenderSettings settings = settings_of(8);
+    const Frame whole = rendered_in_parts(scene, settings, {{0, 8}});
+    for (const unsigned threads : {1u, 3u}) {
+        EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 1}, {1, 7}}, threads)));
+        EXPECT_TRUE(same_pixels(whole, rendered_in_parts(scene, settings, {{0, 5}, {5, 3}}, threads)));
+    }
+    settings.adaptive = true;
+    EXPECT_TRUE(same_pixels(rendered_in_parts(scene, settings, {{0, 1}, {0, 1}, {0, 22}}), rendered_in_parts(scene, settings, {{0, 24}})));
+}
+
+TEST(GuidingPilot, FirstSampleOfSeveralIsGuided) {
+    const Scene scene = balls_in_sun();
+    const RenderSettings settings = settings_of(2);
+    const Frame alone = rendered_in_parts(scene, settings, {{0, 1}}), second = rendered_in_parts(scene, settings, {{1, 1}}),
+                both = rendered_in_parts(scene, settings, {{0, 1}, {1, 1}});
+    size_t other = 0;
+    for (size_t i = 0; i < both.rgba.size(); i += 4) {
+        const float first = 2 * both.rgba[i] - second.rgba[i];
+        other += std::abs(first - alone.rgba[i]) > 1e-3f * (1 + std::abs(first));
+    }
+    EXPECT_GT(other, both.rgba.size() / 400);
+    EXPECT_EQ(both.samples, 2);
+    // The rays of the discarded sample are not those of the image.
+    EXPECT_EQ(both.rays.camera, rendered_in_parts(scene, settings, {{0, 2}}).rays.camera);
+    EXPECT_EQ(both.rays.bounce, rendered_in_parts(scene, settings, {{0, 2}}).rays.bounce);
+}
+
+TEST(GuidingPilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
+    const Scene scene = balls_under_lamp();
+    Scene bright = scene, moved = scene;
+    bright.view = looking({1, 1.5f, 6}, {0, 1, 0}, 0.6f);
+    place(moved, sphere(false), metal(0), at({0, 0.4f, 1.5f}, 0.3f));
+    const RenderSettings settings = settings_of(4);
+    Renderer renderer(all_planes());
+    for (const Scene& next : {scene, bright, moved, scene}) {
+        renderer.update(next, settings);
+        renderer.render(0, 4);
+        EXPECT_EQ(feature_line(renderer, feature).why, decided(next, settings).why);
+        EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(next, settings, 4)));
+    }
+}
+
+TEST(GuidingPilot, IsFollowedByThePathLog) { expect_log_follows_image(balls_under_lamp(), settings_of(8)); }
+
+} // namespace
+} // namespace blush::test::TEST_FILE
