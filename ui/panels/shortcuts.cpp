@@ -26,7 +26,7 @@ void line(const char* what, const char* how, float column) {
 }
 
 // One column: the commands of some groups that have a key. Keys are aligned behind the longest name.
-void draw_groups(std::initializer_list<const char*> groups) {
+void draw_groups(PanelContext& c, std::initializer_list<const char*> groups) {
     const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
     float longest_name = 0;
     for (const Shortcut& s : shortcuts())
@@ -35,7 +35,10 @@ void draw_groups(std::initializer_list<const char*> groups) {
     for (const char* group : groups) {
         heading(group);
         for (const Shortcut& s : shortcuts())
-            if (in(s, group)) line(s.name, keys_of(s).c_str(), longest_name + ImGui::GetFontSize());
+            if (in(s, group)) {
+                line(s.name, keys_of(s).c_str(), longest_name + ImGui::GetFontSize());
+                c.ui.probe.record_last_item(std::string("Shortcut/") + s.group + "/" + s.name);
+            }
     }
 }
 
@@ -60,12 +63,12 @@ void draw_shortcut_sheet(PanelContext& c) {
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();
-            draw_groups({"File", "Edit", "Add light", "Help"});
+            draw_groups(c, {"File", "Edit", "Add light", "Help"});
             ImGui::TableNextColumn();
-            draw_groups({"Look", "View"});
+            draw_groups(c, {"Look", "View"});
             ImGui::TableNextColumn();
             draw_mouse();
-            draw_groups({"Lights"});
+            draw_groups(c, {"Lights"});
             ImGui::EndTable();
         }
         ImGui::PopStyleVar();

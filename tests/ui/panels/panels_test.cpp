@@ -246,7 +246,27 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     EXPECT_FALSE(document.can_undo());
 }
 
-// The Specialisation section has a line per unused feature; used features are below a collapsed heading.
+TEST_F(Panels, TheShortcutSheetListsAllKeys) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_shortcuts.json";
+    Document document;
+    ui.probe = Probe(file);
+    ui.show_shortcuts = true;
+    for (int i = 0; i < 3; ++i) {
+        ui.probe.begin_frame();
+        in_window([&] {
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            draw_shortcut_sheet(c);
+        });
+    }
+    ui.probe.end_frame({});
+    std::ifstream in(file);
+    const std::string written{std::istreambuf_iterator<char>(in), {}};
+    for (const Shortcut& s : shortcuts())
+        EXPECT_EQ(written.find(std::string("\"Shortcut/") + s.group + "/" + s.name + "\"") != std::string::npos, s.press.key != key::none)
+            << s.name;
+    std::filesystem::remove(file);
+}
+
 TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFound) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_status.json";
     ui.probe = Probe(file);
@@ -273,6 +293,7 @@ TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFound) {
     std::filesystem::remove(file);
 }
 
+// The Specialisation section has a line per unused feature; used features are below a collapsed heading.
 TEST_F(Panels, EachUnusedFeatureHasALine) {
     Document document;
     ui.settings.panels["section.Specialisation"] = 1;
