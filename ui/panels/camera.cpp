@@ -65,7 +65,7 @@ void draw_focus(Fields& f, Lens& lens) {
                   .reset = 0,
                   .unit = "mm",
                   .step = 0.05f,
-                  .tip = "Radius of the lens opening. 0 is a pinhole: everything is sharp. A larger radius blurs what is out of focus."}))
+                  .tip = "Radius of the lens opening. 0 is a pinhole: everything is sharp. A larger radius blurs objects that are out of focus."}))
         lens.aperture_radius = millimetres / 1000;
     if (!lens.orthographic) {
         float f_number = f_number_of(lens);
