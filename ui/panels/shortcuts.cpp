@@ -55,7 +55,7 @@ void draw_shortcut_sheet(PanelContext& c) {
     if (!c.ui.show_shortcuts) return;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x * 0.95f, screen.y * 0.95f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x * 0.95f, screen.y}); // all of it in a window of 1280x720
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
