@@ -185,7 +185,7 @@ int run_info(const InfoCommand& c) {
 
 void add_info_command(CLI::App& app, std::function<int()>& run) {
     const auto command = std::make_shared<InfoCommand>();
-    CLI::App* sub = app.add_subcommand("info", "Print the content of a scene, what is ignored, and the kernel that it needs");
+    CLI::App* sub = app.add_subcommand("info", "Print the content of a scene, its ignored features, and the kernel that it needs");
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_flag("--measure", command->measure,
                   "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "

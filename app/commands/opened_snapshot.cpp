@@ -101,7 +101,7 @@ Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const st
     s.images.denoised = denoised_from_layer(*image, *metadata, frame->samples);
     s.images.frame = std::make_shared<const Frame>(*std::move(frame));
     if (s.scene_file.empty())
-        s.no_state = fmt::format("Its scene file {} was not found, neither at its old path nor beside the image.", metadata->scene);
+        s.no_state = fmt::format("Its scene file {} was not found at its old path or beside the image.", metadata->scene);
     return opened;
 }
 

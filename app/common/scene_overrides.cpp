@@ -90,7 +90,7 @@ Result<void> light_up(std::optional<LightRig> light, Scene& scene, std::vector<D
     };
     const bool asked = light && *light != LightRig::none;
     if (has_light(scene)) {
-        if (asked) warn(fmt::format("--light {} is ignored: the scene has light of its own", to_string(*light)));
+        if (asked) warn(fmt::format("--light {} is ignored: the scene has its own lights", to_string(*light)));
         return {};
     }
     if (!light) warn("no light in this file: the image is black (use --light studio or --light sky)");

@@ -77,7 +77,8 @@ void toggle_solo(PanelContext& c) {
 void group_lights(PanelContext& c) {
     const auto lights = selected_lights(c);
     const std::string group = unused_group_name(c.scene());
-    c.apply(change_lights(c.scene(), lights, [&](Light& light) { light.group = group; }), label_for("Group", c.scene(), lights));
+    c.apply(change_lights(c.scene(), lights, [&](Light& light) { light.group = group; }),
+            label_for("Group", c.scene(), lights, c.ui.selection(c.scene())));
 }
 
 void toggle_light_mix(PanelContext& c) {

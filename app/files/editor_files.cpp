@@ -158,8 +158,8 @@ void EditorFiles::start_import(const std::filesystem::path& file, Purpose purpos
 void EditorFiles::save(const std::filesystem::path& file, const Project& project) {
     saving_ = project;
     save_job_ = std::make_unique<BackgroundJob<Result<SavedGltf>>>(
-        "Saving " + file.filename().string(), [file, project, origin = origin_](JobProgress&) { return save_gltf(origin, project, file); },
-        wake_);
+        "Saving " + file.filename().string(),
+        [file, project, origin = origin_](JobProgress&) { return save_gltf(origin, project, file, true); }, wake_);
 }
 
 void EditorFiles::load_environment(const std::filesystem::path& file) {

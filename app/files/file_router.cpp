@@ -60,9 +60,9 @@ void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
     else if (matches(photometric_files, file))
         files.load_ies(file, document, ui);
     else
-        ui.toasts.fail(file.filename().string() +
-                       ": neither a glTF scene (.gltf, .glb), nor an environment image (.hdr, .exr), nor a rendered "
-                       "image (.exr), nor an IES file (.ies), nor a convergence table (.csv)");
+        ui.toasts.fail(file.filename().string() + " cannot be opened",
+                       "Drop a glTF scene (.gltf, .glb), an environment image (.hdr, .exr), a rendered image (.exr), an IES file (.ies) or "
+                       "a convergence table (.csv).");
 }
 
 } // namespace blush

@@ -1,5 +1,5 @@
 // The BSDF of a surface point (make_bsdf, then eval / sample): the base (base.h) and, if S has them, the layers on top of it. A
-// layer reduces what is below it by its own maximal reflectance.
+// layer scales the parts below it by 1 minus its own maximal reflectance.
 //
 // Features outside of S are not computed, and features that a material does not use do not change the result by a bit: their
 // factors are exactly 1, their summands exactly 0.
@@ -11,8 +11,8 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// Probability of sampling a layer with reflectance `layer` rather than what is below it, with reflectance `below`: proportional
-// to their albedo towards the viewer, as between the parts of the base.
+// Probability of sampling a layer with reflectance `layer` and not the parts below it, which have reflectance `below`. It is in
+// proportion to their albedos towards the viewer, as between the parts of the base.
 template <class F> F layer_probability(const F& layer, const F& below) {
     const F p = min(max(F(layer / max(layer + below, F(1e-20f))), F(0.1f)), F(0.9f));
     return select(layer > F(0.f), p, F(0.f));

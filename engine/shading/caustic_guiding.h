@@ -1,8 +1,8 @@
-// Caustic guiding: mirrors and glass cast caustics on diffuse surfaces, which are found only by paths that happen to leave a
-// diffuse surface towards the right point of a specular object; NEE cannot connect through it. So diffuse surfaces sample more
-// directions into the cones that bound specular objects (bounding spheres). Directions are sampled from the mixture of both
-// densities (one-sample model, Veach 1997, section 9.2.4): the expectation is the same whatever the spheres contain, and path
-// weights grow at most by 1 / (1 - max_guided_share).
+// Caustic guiding. Mirrors and glass cast caustics on diffuse surfaces. NEE cannot connect through them: a path finds a caustic
+// only if it leaves the diffuse surface towards the right point of a specular object. So diffuse surfaces sample more directions
+// into the cones that bound specular objects (bounding spheres). Directions are sampled from the mixture of both densities
+// (one-sample model, Veach 1997, section 9.2.4): the expectation does not depend on the spheres, and path weights grow at most by
+// 1 / (1 - max_guided_share).
 #pragma once
 
 #include "core/sampling.h"
@@ -27,9 +27,9 @@ struct CausticCasterTables {
 
 namespace blush::inline BLUSH_ISA {
 
-// Oversampling factor of directions into a sphere: if nine tenths of the variance come from an eighth of the paths (two spheres
-// that fill this part of a ceiling's view), the optimal factor, the root of the ratio of variances, is about this (Neyman 1934).
-// And the maximal share of guided paths.
+// Oversampling factor of directions into a sphere. The optimal factor is the square root of the ratio of variances (Neyman 1934).
+// Two spheres that fill an eighth of a ceiling's view and cause nine tenths of its variance give about this factor. The second
+// constant is the maximal share of guided paths.
 constexpr float guiding_boost = 6, max_guided_share = 0.5f;
 
 // sin^2 of the angular radius below which a sphere is not sampled.

@@ -47,7 +47,7 @@ template <class F> BsdfValue<F> eval_clearcoat(const Clearcoat<F>& coat, const V
     const Vec<F> wi = coat.frame.to_local(wi_viewer);
     const Vec<F> sum = coat.wo + wi;
     const Vec<F> h = sum / sqrt(max(length_squared(sum), F(1e-30f)));
-    // The coat scatters nothing below the surface, whatever the tilt of its normal.
+    // The coat scatters nothing below the surface, even if its normal is tilted.
     const Mask<F> above = wi.z > F(0.f) && wi_viewer.z > F(0.f) && !coat.smooth && coat.reflected > F(0.f);
     const F pdf = select(above, ggx(coat.alpha, h) * coat.visible * 0.25f, F(0.f));
     return {splat<F>(1.f) * (coat.reflected * pdf * masking(coat.alpha, wi)), pdf};

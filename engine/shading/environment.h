@@ -3,7 +3,7 @@
 // The map's centre column looks along -Z, its top row along +Y; to the right of the centre is +X. Radiance is interpolated
 // between texel centres, so the density is constant on the cells between texel centres, not on texels: a cell is sampled with a
 // probability proportional to the integral of the filtered map, a direction in it uniformly in solid angle. The pdf is p / solid
-// angle: no division by the sine of the polar angle, and above 0 wherever the filtered map is.
+// angle. It needs no division by the sine of the polar angle, and is positive where the filtered map is positive.
 #pragma once
 
 #include "core/distribution.h"

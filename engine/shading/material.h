@@ -57,7 +57,7 @@ template <class F> struct MaterialPoint {
     BsdfParams<F> bsdf;
     Vec<F> emission;                 // radiance in nits towards the emitting side
     Vec<F> tangent_normal;           // unit, in the frame of tangent, bitangent and shading normal; (0, 0, 1) without a normal map
-    Vec<F> clearcoat_tangent_normal; // the coat's, likewise
+    Vec<F> clearcoat_tangent_normal; // the coat's normal, in the same frame
     AnisotropyPoint<F> anisotropy;
     F dispersion;   // 20 / Abbe number
     Vec<F> sigma_a; // 1/m, on the inner side of a solid

@@ -1,6 +1,6 @@
 // KHR_materials_sheen: scattering by upright fibres, with the "Charlie" distribution of normals and masking of Estevez and Kulla
-// 2017, "Production Friendly Microfacet Sheen BRDF". The base is scaled by the sheen's transmittance on the way in or out,
-// whichever is less. At grazing angles the masking fit reflects more light than smooth fibres receive; only there the sheen is
+// 2017, "Production Friendly Microfacet Sheen BRDF". The base is scaled by the smaller of the sheen's transmittances on the
+// way in and on the way out. At grazing angles the masking fit reflects more light than smooth fibres receive; only there the sheen is
 // scaled down, again by the worse of both directions. So no energy is gained, and the BSDF is reciprocal.
 #pragma once
 
@@ -83,7 +83,7 @@ template <class F> F left_below_sheen(const Sheen<F>& sheen, const Vec<F>& wi) {
 // The same for light from the viewer's direction.
 template <class F> F left_below_sheen(const Sheen<F>& sheen) { return 1.f - sheen.strength * min(sheen.albedo, F(1.f)); }
 
-// Value and pdf of the sheen alone, without its sampling probability: uniform over the hemisphere, which its lobes fill.
+// Value and pdf of the sheen alone, without its sampling probability: uniform over the hemisphere, because its lobes fill it.
 template <class F> BsdfValue<F> eval_sheen(const Sheen<F>& sheen, const Vec<F>& wo, const Vec<F>& wi) {
     const Mask<F> above = sheen.strength > F(0.f) && wi.z > F(0.f);
     if (!any(above)) return {splat<F>(0.f), F(0.f)};

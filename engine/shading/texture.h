@@ -1,4 +1,4 @@
-// Image textures: glTF's wrap modes and filters, and mip levels, over texels that lie where their images do.
+// Image textures: glTF's wrap modes and filters, and mip levels. They read the texels of the images without a copy.
 // Texels are linearised before filtering, as in sRGB samplers of GPUs; filtering encoded values would darken every edge.
 #pragma once
 
@@ -28,7 +28,7 @@ struct TextureLevel {
     int32_t channels; // 4, or 3: alpha is 1
 };
 
-// So that the bytes of an image are counted in 32 bits.
+// With this limit 32 bits can count the bytes of an image.
 constexpr int64_t max_texels = int64_t(1) << 28;
 
 struct TextureRecord {
@@ -65,7 +65,7 @@ namespace blush::inline BLUSH_ISA {
 template <class F> Vec4T<F> select(const Mask<F>& m, const Vec4T<F>& a, const Vec4T<F>& b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
 }
-// Returns exactly a for t = 0 and wherever a = b.
+// Returns exactly a for t = 0 and for a = b.
 template <class F> Vec4T<F> lerp(const Vec4T<F>& a, const Vec4T<F>& b, const std::type_identity_t<F>& t) {
     return {lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t), lerp(a.w, b.w, t)};
 }

@@ -37,14 +37,14 @@ struct Drawn {
 std::vector<Drawn> draw(const CausticCasterTables& table, int count) {
     std::mt19937 bits(5);
     const auto u = [&] { return float(bits() >> 8) * 0x1p-24f; };
-    const CausticGuide<float> focus = caustic_guide_at<float>(table, {0, 0, 0}, up, true);
+    const CausticGuide<float> guide = caustic_guide_at<float>(table, {0, 0, 0}, up, true);
     std::vector<Drawn> drawn;
     for (int i = 0; i < count; ++i) {
         const float choice = u(), a = u(), b = u();
-        const Vec3 w = choice < focus.share ? sample_caster_direction<float>(table, focus, choice / focus.share, a, b)
+        const Vec3 w = choice < guide.share ? sample_caster_direction<float>(table, guide, choice / guide.share, a, b)
                                             : sample_cosine_hemisphere(a, b);
         const float cosine = cosine_hemisphere_pdf(w.z);
-        drawn.push_back({w, double(cosine) / double(caster_pdf<float>(table, focus, w, cosine))});
+        drawn.push_back({w, double(cosine) / double(caster_pdf<float>(table, guide, w, cosine))});
     }
     return drawn;
 }

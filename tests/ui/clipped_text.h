@@ -1,4 +1,4 @@
-// Finds unreadable text in ImGui draw data: cut off at a side of its clip rectangle, or drawn over other text.
+// Finds unreadable text in ImGui draw data: cut off at a side of its clip rectangle, below other text, or below a filled shape.
 #pragma once
 
 #include <imgui.h>
@@ -15,7 +15,41 @@ struct DrawnGlyph {
     float x0, y0, x1, y1; // the visible part
     ImWchar code = 0;
     bool cut = false; // at its left or right side
+    int at = 0;       // position in the indices of its draw list
 };
+
+// An opaque triangle without texture.
+struct FilledTriangle {
+    ImVec2 a, b, c;
+    int at; // as DrawnGlyph::at
+
+    bool covers(const ImVec2& p) const {
+        const auto side = [&](const ImVec2& from, const ImVec2& to) {
+            return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+        };
+        const float ab = side(a, b), bc = side(b, c), ca = side(c, a);
+        return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
+    }
+};
+
+inline std::vector<FilledTriangle> filled_triangles(const ImDrawList& list) {
+    const ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+    std::vector<FilledTriangle> found;
+    for (const ImDrawCmd& cmd : list.CmdBuffer) {
+        if (cmd.UserCallback) continue;
+        for (unsigned i = cmd.IdxOffset; i + 3 <= cmd.IdxOffset + cmd.ElemCount; i += 3) {
+            const auto vertex = [&](unsigned k) -> const ImDrawVert& {
+                return list.VtxBuffer[int(cmd.VtxOffset + list.IdxBuffer[int(i + k)])];
+            };
+            const auto is_filled = [&](const ImDrawVert& v) {
+                return v.uv.x == white.x && v.uv.y == white.y && (v.col >> IM_COL32_A_SHIFT & 255) == 255;
+            };
+            if (is_filled(vertex(0)) && is_filled(vertex(1)) && is_filled(vertex(2)))
+                found.push_back({vertex(0).pos, vertex(1).pos, vertex(2).pos, int(i)});
+        }
+    }
+    return found;
+}
 
 class GlyphFinder {
 public:
@@ -39,8 +73,10 @@ public:
                 }
                 if (const auto glyph =
                         drawn_glyph(list.VtxBuffer[int(cmd.VtxOffset + idx[0])], list.VtxBuffer[int(cmd.VtxOffset + idx[2])], cmd.ClipRect);
-                    glyph.code)
+                    glyph.code) {
                     drawn.push_back(glyph);
+                    drawn.back().at = int(i);
+                }
                 i += 6;
             }
         }
@@ -94,9 +130,16 @@ inline std::vector<std::string> unreadable_text(const ImDrawData& data, const st
         const std::string name = list._OwnerName ? list._OwnerName : "";
         if (std::ranges::any_of(scrolled, [&](const std::string& s) { return name.find(s) != std::string::npos; })) continue;
         const std::vector<DrawnGlyph> glyphs = finder.glyphs_of(list);
-        float last_cut_y = -1e9f;
+        const std::vector<FilledTriangle> filled = filled_triangles(list);
+        float last_cut_y = -1e9f, last_covered_y = -1e9f;
         for (size_t i = 0; i < glyphs.size(); ++i) {
             const DrawnGlyph& a = glyphs[i];
+            const ImVec2 centre{(a.x0 + a.x1) / 2, (a.y0 + a.y1) / 2};
+            const auto later = std::ranges::upper_bound(filled, a.at, {}, &FilledTriangle::at);
+            if (std::abs(a.y1 - last_covered_y) > 6 && std::any_of(later, filled.end(), [&](const auto& t) { return t.covers(centre); })) {
+                found.push_back("covered in " + name + ": " + line_around(glyphs, i));
+                last_covered_y = a.y1;
+            }
             if (a.cut && std::abs(a.y1 - last_cut_y) > 6) {
                 found.push_back("cut in " + name + ": " + line_around(glyphs, i));
                 last_cut_y = a.y1;

@@ -10,7 +10,7 @@ struct ImDrawData;
 
 namespace blush {
 
-// Call after changing what a texture shows under the same name, or its filter: draw data refers to textures by name.
+// Call after changing the pixels or the filter of a texture: draw data refers to a texture by its name, which stays.
 void textures_changed();
 
 class Redraw {

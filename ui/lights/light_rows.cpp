@@ -2,6 +2,7 @@
 
 #include "scene/animation/pose.h"
 #include "scene/lights/light_visibility.h"
+#include "scene/node_name.h"
 #include "scene/world_transforms.h"
 #include "ui/lights/light_groups.h"
 #include "ui/lights/light_tools.h"
@@ -13,10 +14,6 @@
 
 namespace blush {
 namespace {
-
-std::string name_of_light(const Node& node, const Light& light) {
-    return !node.name.empty() ? node.name : !light.name.empty() ? light.name : kind_name(light.kind);
-}
 
 const char* type_of(const Environment& e) {
     switch (e.kind) {
@@ -37,7 +34,7 @@ public:
                                         node.light,
                                         {},
                                         false,
-                                        name_of_light(node, light),
+                                        node_name(scene_, id, node),
                                         kind_name(light.kind),
                                         light.intensity,
                                         intensity_unit(light.kind),

@@ -21,18 +21,6 @@ float intensity_towards(const Light& light, double candela, double distance) {
     return light.kind == Light::Kind::sun ? float(candela / (distance * distance)) : intensity_of(light, Light::Unit::candela, candela);
 }
 
-const char* kind_name(Light::Kind kind) {
-    switch (kind) {
-    case Light::Kind::point: return "Point";
-    case Light::Kind::spot: return "Spot";
-    case Light::Kind::sun: return "Sun";
-    case Light::Kind::rectangle: return "Rectangle";
-    case Light::Kind::disk: return "Disk";
-    case Light::Kind::sphere: return "Sphere";
-    }
-    return "";
-}
-
 const char* intensity_unit(Light::Kind kind) { return kind == Light::Kind::sun ? "lx" : is_per_area(kind) ? "nits" : "cd"; }
 
 bool has_direction(Light::Kind kind) { return kind != Light::Kind::point && kind != Light::Kind::sphere; }

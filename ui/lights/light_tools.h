@@ -6,7 +6,6 @@
 
 namespace blush {
 
-const char* kind_name(Light::Kind kind);
 // "cd", "lx" or "nits".
 const char* intensity_unit(Light::Kind kind);
 bool has_direction(Light::Kind kind);

@@ -1,6 +1,7 @@
 #include "ui/lights/multi_edit.h"
 
 #include "scene/document/subtree_edits.h"
+#include "scene/node_name.h"
 #include "scene/reference_check.h"
 
 #include <algorithm>
@@ -79,10 +80,14 @@ std::vector<std::string> differing_fields(const Scene& scene, std::span<const Id
     return fields;
 }
 
-std::string label_for(const std::string& what, const Scene& scene, std::span<const Id<Light>> lights) {
+std::string label_for(const std::string& what, const Scene& scene, std::span<const Id<Light>> lights, std::span<const Id<Node>> nodes) {
     if (lights.size() != 1) return what + " " + std::to_string(lights.size()) + " lights";
-    const Light* light = scene.lights.find(lights[0]);
-    return what + " light" + (light && !light->name.empty() ? " " + light->name : "");
+    for (const Id<Node> root : nodes)
+        for (const Id<Node> id : subtree(scene, root))
+            if (const Node& node = *scene.nodes.find(id); node.light == lights[0]) return what + " light " + node_name(scene, id, node);
+    for (const auto& [id, node] : scene.nodes)
+        if (node.light == lights[0]) return what + " light " + node_name(scene, id, node);
+    return what + " light";
 }
 
 } // namespace blush

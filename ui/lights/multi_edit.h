@@ -22,7 +22,7 @@ Light apply_same_edit(const Light& other, const Light& before, const Light& afte
 std::vector<Edit> change_lights(const Scene& scene, std::span<const Id<Light>> lights, const std::function<void(Light&)>& change);
 // Labels of the inspector's fields in which the lights differ.
 std::vector<std::string> differing_fields(const Scene& scene, std::span<const Id<Light>> lights);
-// "Mute light Key", "Mute 3 lights".
-std::string label_for(const std::string& what, const Scene& scene, std::span<const Id<Light>> lights);
+// "Mute light Key", "Mute 3 lights". A single light has the name of its node in the subtrees of `nodes`, or else of its first node.
+std::string label_for(const std::string& what, const Scene& scene, std::span<const Id<Light>> lights, std::span<const Id<Node>> nodes);
 
 } // namespace blush

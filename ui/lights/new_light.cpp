@@ -2,6 +2,7 @@
 
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
+#include "scene/node_name.h"
 #include "ui/lights/light_tools.h"
 #include "ui/transform/rotation.h"
 #include "ui/viewport/orbit_camera.h"

@@ -3,6 +3,7 @@
 #include "render/lights/light_links.h"
 #include "scene/affine.h"
 #include "scene/geometry/ray_queries.h"
+#include "scene/node_name.h"
 #include "ui/viewport/viewport_marks.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/window/theme.h"
@@ -69,8 +70,7 @@ void PlaceTool::warn_of_occluder(PanelContext& c) const {
     if (light->kind == Light::Kind::sun) way = way * (1 + 2 * world_bounds(c.scene()).radius() / std::max(length(way), 1e-9));
     const auto blocker = first_occluder(c.scene(), *effect_at_, *effect_at_ + way, counts);
     if (!blocker) return;
-    const std::string name = c.scene().nodes.find(*blocker)->name;
-    c.ui.toasts.warn((name.empty() ? "Another object" : name) + " is in the way",
+    c.ui.toasts.warn(node_name(c.scene(), *blocker, *c.scene().nodes.find(*blocker)) + " is in the way",
                      by_ == PlacingBy::highlight ? "The light does not reach the position of the highlight."
                                                  : "Another object on the line to the light casts a shadow there as well.");
 }
@@ -114,7 +114,7 @@ bool PlaceTool::update(PanelContext& c, ImDrawList& draw, const Projection& proj
         node_ = c.ui.selected;
     }
     if (by_ == PlacingBy::hand) return false;
-    draw_hint(draw, hint(light->name.empty() ? "the light" : elided(light->name, max_name_width())));
+    draw_hint(draw, hint(elided(node_name(c.scene(), node_, *c.scene().nodes.find(node_)), max_name_width())));
     const auto spot = hovered || dragging_ ? surface_under_mouse(c, projection, image) : std::nullopt;
     const bool pressed = hovered && !dragging_ && plain_click();
     if (pressed && spot) press(c, *spot);

@@ -59,13 +59,15 @@ void draw_projection(Fields& f, Lens& lens) {
 
 void draw_focus(Fields& f, Lens& lens) {
     float millimetres = lens.aperture_radius * 1000;
-    if (f.number("Aperture", millimetres,
-                 {.min = 0,
-                  .max = 1e6f,
-                  .reset = 0,
-                  .unit = "mm",
-                  .step = 0.05f,
-                  .tip = "Radius of the lens opening. 0 is a pinhole: everything is sharp. A larger radius blurs what is out of focus."}))
+    if (f.number(
+            "Aperture", millimetres,
+            {.min = 0,
+             .max = 1e6f,
+             .reset = 0,
+             .unit = "mm",
+             .step = 0.05f,
+             .tip =
+                 "Radius of the lens opening. 0 is a pinhole: everything is sharp. A larger radius blurs objects that are out of focus."}))
         lens.aperture_radius = millimetres / 1000;
     if (!lens.orthographic) {
         float f_number = f_number_of(lens);

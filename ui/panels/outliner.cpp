@@ -1,4 +1,5 @@
 // Outliner: the scene's nodes as a tree, with icons for content and visibility.
+#include "scene/node_name.h"
 #include "ui/gl/icons.h"
 #include "ui/lights/light_tools.h"
 #include "ui/panels/light/drag.h"
@@ -42,13 +43,6 @@ Icon icon_of(const Scene& scene, const Node& node) {
     return node.mesh ? Icon::mesh : node.camera ? Icon::camera : Icon::group;
 }
 
-std::string name_of(const Scene& scene, Id<Node> id, const Node& node) {
-    if (!node.name.empty()) return node.name;
-    if (const Light* light = scene.lights.find(node.light)) return light->name.empty() ? kind_name(light->kind) : light->name;
-    if (const Mesh* mesh = scene.meshes.find(node.mesh); mesh && !mesh->name.empty()) return mesh->name;
-    return "Node " + std::to_string(id.value);
-}
-
 void draw_rename(PanelContext& c, Id<Node> id, const Node& node) {
     ImGui::SetNextItemWidth(-ImGui::GetFrameHeight());
     ImGui::SetKeyboardFocusHere();
@@ -89,7 +83,7 @@ void draw_node(PanelContext& c, Rows& rows, Id<Node> id, int depth) {
     ImGui::SetNextItemOpen(open_at_first != c.ui.turned.contains(id));
     const bool open = ImGui::TreeNodeEx("##node", flags);
     if (ImGui::IsItemToggledOpen() && !c.ui.turned.erase(id)) c.ui.turned.insert(id);
-    const std::string name = name_of(c.scene(), id, node);
+    const std::string name = node_name(c.scene(), id, node);
     c.ui.probe.record_last_item("Outliner/" + name);
     if (c.scene().lights.contains(node.light)) {
         drag_light(id, name);

@@ -3,6 +3,7 @@
 #include "core/math.h"
 #include "core/text.h"
 #include "render/film/coverage.h"
+#include "scene/node_name.h"
 #include "ui/panels/panels.h"
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/widgets/elided_text.h"
@@ -81,7 +82,7 @@ void draw_values(const PanelContext& c, const Frame& f, int x, int y) {
     if (!f.depth.empty()) row(c, "Distance", f.depth[i] > 0 ? fmt::format("{:.4g} m", f.depth[i]) : "nothing hit");
     if (!f.object_id.empty()) {
         const Node* node = c.scene().nodes.find({f.object_id[i]});
-        row(c, "Object", node ? node->name.empty() ? fmt::format("Node {}", f.object_id[i]) : node->name : "none");
+        row(c, "Object", node ? node_name(c.scene(), {f.object_id[i]}, *node) : "none");
     }
     if (!f.material_id.empty()) {
         const Material* material = c.scene().materials.find({f.material_id[i]});

@@ -120,8 +120,10 @@ void draw_column(PanelContext& c, const char* title, const char* tip, const Hist
 void draw_scopes_panel(PanelContext& c) {
     ScopesView& view = c.ui.scopes;
     const float em = ImGui::GetFontSize();
-    if (c.has_image() && view.scopes.update(c.shown_image(), scopes_of))
-        c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
+    const uint64_t before = view.scopes.number();
+    const bool pending = c.has_image() && view.scopes.update(c.shown_image(), scopes_of);
+    // The waveforms of a new result become textures at the start of the next frame.
+    if (pending || view.scopes.number() != before) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.05);
     static const Scopes nothing;
     const Scopes& scopes = view.scopes.output() ? *view.scopes.output() : nothing;
     const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -26,7 +26,7 @@ void line(const char* what, const char* how, float column) {
 }
 
 // One column: the commands of some groups that have a key. Keys are aligned behind the longest name.
-void draw_groups(std::initializer_list<const char*> groups) {
+void draw_groups(PanelContext& c, std::initializer_list<const char*> groups) {
     const auto in = [](const Shortcut& s, const char* group) { return std::strcmp(s.group, group) == 0 && s.press.key != key::none; };
     float longest_name = 0;
     for (const Shortcut& s : shortcuts())
@@ -35,7 +35,10 @@ void draw_groups(std::initializer_list<const char*> groups) {
     for (const char* group : groups) {
         heading(group);
         for (const Shortcut& s : shortcuts())
-            if (in(s, group)) line(s.name, keys_of(s).c_str(), longest_name + ImGui::GetFontSize());
+            if (in(s, group)) {
+                line(s.name, keys_of(s).c_str(), longest_name + ImGui::GetFontSize());
+                c.ui.probe.record_last_item(std::string("Shortcut/") + s.group + "/" + s.name);
+            }
     }
 }
 
@@ -52,7 +55,7 @@ void draw_shortcut_sheet(PanelContext& c) {
     if (!c.ui.show_shortcuts) return;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x * 0.95f, screen.y * 0.95f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x * 0.95f, screen.y}); // all of it in a window of 1280x720
     if (ImGui::Begin("Shortcuts", &c.ui.show_shortcuts,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar |
                          ImGuiWindowFlags_NoSavedSettings)) {
@@ -60,12 +63,12 @@ void draw_shortcut_sheet(PanelContext& c) {
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetFontSize(), 0});
         if (ImGui::BeginTable("columns", screen.x > 80 * ImGui::GetFontSize() ? 3 : 1, ImGuiTableFlags_SizingFixedFit)) {
             ImGui::TableNextColumn();
-            draw_groups({"File", "Edit", "Add light", "Help"});
+            draw_groups(c, {"File", "Edit", "Add light", "Help"});
             ImGui::TableNextColumn();
-            draw_groups({"Look", "View"});
+            draw_groups(c, {"Look", "View"});
             ImGui::TableNextColumn();
             draw_mouse();
-            draw_groups({"Lights"});
+            draw_groups(c, {"Lights"});
             ImGui::EndTable();
         }
         ImGui::PopStyleVar();

@@ -3,6 +3,7 @@
 #include "scene/affine.h"
 #include "scene/animation/pose.h"
 #include "scene/lights/light_units.h"
+#include "scene/node_name.h"
 #include "ui/lights/multi_edit.h"
 #include "ui/transform/rotation.h"
 
@@ -84,10 +85,11 @@ std::string why_not(const Scene& scene, std::span<const TransformTarget> targets
     if (targets.empty()) return "The selection cannot be transformed: it is driven by an animation or a skin";
     if (targets.size() != 1 || !targets[0].light || mode == TransformMode::grab) return {};
     const Light& light = *scene.lights.find(targets[0].light);
-    if (mode == TransformMode::rotate && is_rotation_invariant(light)) return light.name + " emits uniformly: rotation has no effect";
+    const std::string name = node_name(scene, targets[0].node, *scene.nodes.find(targets[0].node));
+    if (mode == TransformMode::rotate && is_rotation_invariant(light)) return name + " emits uniformly: rotation has no effect";
     if (mode == TransformMode::scale && !has_size(light))
-        return light.name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first"
-                                                            : " has no size to scale: set its Radius first");
+        return name + (light.kind == Light::Kind::sun ? " has no angle to scale: set its Angle first"
+                                                      : " has no size to scale: set its Radius first");
     return {};
 }
 
@@ -122,7 +124,7 @@ std::string transform_label(const Scene& scene, std::span<const TransformTarget>
     const char* verb = verbs[size_t(mode)];
     if (targets.size() != 1) return fmt::format("{} {} objects", verb, targets.size());
     const Node* node = scene.nodes.find(targets[0].node);
-    return fmt::format("{} {}", verb, node && !node->name.empty() ? node->name : "object");
+    return fmt::format("{} {}", verb, node ? node_name(scene, targets[0].node, *node) : "object");
 }
 
 Vec3d handle_point(const Scene& scene, Id<Node> id) {

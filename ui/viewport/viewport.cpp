@@ -2,6 +2,7 @@
 
 #include "render/light_mix/light_mix.h"
 #include "scene/document/subtree_edits.h"
+#include "scene/node_name.h"
 #include "ui/gl/reuse_buffer.h"
 #include "ui/gl/texture_id.h"
 #include "ui/lights/light_glyphs.h"
@@ -302,7 +303,7 @@ void Viewport::draw_texture(const ImageRect& image, const std::optional<ImageRec
 
 void Viewport::draw_image(PanelContext& c, const ImageRect& image, bool outlined, const std::optional<ImageRect>& frame) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    // Pixel by pixel, the nearest pixel is what the linear filter gives, and costs less.
+    // At 1:1 the nearest filter gives the same as the linear filter, and costs less.
     const bool one_to_one = image.width == float(shown_frame_->width) && image.height == float(shown_frame_->height) &&
                             image.x == std::floor(image.x) && image.y == std::floor(image.y);
     const bool sharp = one_to_one || (c.ui.zoom.scale >= 1 && shown_frame_->divider == 1);
@@ -442,8 +443,11 @@ bool Viewport::draw_overlays(PanelContext& c, const Projection& projection, cons
         if (by_hand) taken = handles_.update(c, draw, projection, image, hovered);
         taken |= draw_environment_dial(c, draw, projection, seen, hovered && !taken);
     }
-    if (const Light* light = light_camera_light(c); light && c.ui.placing_by == PlacingBy::hand)
-        draw_hint(draw, "Looking through " + elided(light->name, max_name_width()) + ": moving the view moves the light.  L or Esc: back");
+    if (light_camera_light(c) && c.ui.placing_by == PlacingBy::hand) {
+        const Id<Node> id = c.ui.light_camera->node;
+        const std::string name = elided(node_name(c.scene(), id, *c.scene().nodes.find(id)), max_name_width());
+        draw_hint(draw, "Looking through " + name + ": moving the view moves the light.  L or Esc: back");
+    }
     taken |= place_tool_.update(c, draw, projection, image, hovered);
     taken |= transformer_.update(c, draw, projection, image);
     draw.PopClipRect();

@@ -75,10 +75,11 @@ Fields::~Fields() { ImGui::PopID(); }
 
 void Fields::begin_row(const char* label, const char* tip) {
     ImGui::AlignTextToFramePadding();
+    const std::string shown = elided(label, label_width() - ImGui::GetCursorPosX());
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.68f, 0.68f, 0.68f, 1));
-    ImGui::TextUnformatted(label);
+    ImGui::TextUnformatted(shown.c_str());
     ImGui::PopStyleColor();
-    tip_for_last_item(ui_, tip);
+    tip_for_last_item(ui_, shown == label ? tip : std::string(label).append("\n").append(tip).c_str());
     ImGui::SameLine(label_width());
     ImGui::SetNextItemWidth(-FLT_MIN);
 }

@@ -23,7 +23,7 @@ struct NumberStyle {
     bool bar = false;        // a filled bar from min to max instead of a drag field
     const char* tip = "";    // tooltip: its physical meaning
     const char* format = ""; // without the unit; "": as number_format()
-    bool fraction = false;   // below 1 shown as 1/N, whatever the format
+    bool fraction = false;   // below 1 shown as 1/N, in every format
 };
 
 class Fields {

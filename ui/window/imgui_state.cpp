@@ -44,7 +44,7 @@ bool close_top_popup() {
 
 bool needs_another_frame() {
     ImGuiContext& g = *ImGui::GetCurrentContext();
-    // Neither a pending request for the keyboard nor a field that has just got it is seen in the draw data.
+    // The draw data does not show a pending request for the keyboard, or a field that has just got it.
     if (g.NavMoveSubmitted || (g.WantTextInputNextFrame == 1) != g.IO.WantTextInput) return true;
     for (int i = 0; i < g.TabBars.GetMapSize(); ++i) {
         const ImGuiTabBar* const tabs = g.TabBars.TryGetMapData(i);

@@ -123,6 +123,7 @@ constexpr MouseHint hints[] = {
     {"Type a value", "Double-click or Ctrl+click; Tab: the next"},
     {"Change a value finely", "Shift+drag"},
     {"Copy, paste, reset a value", "Right-click it"},
+    {"Menus, lists, dialogs", "Arrow keys, Tab, Enter, Esc"},
 };
 
 } // namespace

@@ -53,7 +53,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 
 float usable_scale(float scale) { return std::clamp(scale, 0.5f, 4.f); }
 
-// A position within [0, size) that is away from both edges; unchanged if it is.
+// Wraps a position at the edges of [0, size): one at an edge goes to the opposite side, others stay.
 double away_from_edges(double at, double size) {
     constexpr double edge = 2;
     if (size < 10 * edge || (at >= edge && at < size - edge)) return at;
@@ -70,7 +70,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    // Nothing here tests depths. Without these buffers a software rasterizer drops what an opaque image covers.
+    // The window tests no depths. Without these buffers a software rasterizer skips pixels that an opaque image covers.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_MAXIMIZED, options.maximized);
@@ -203,7 +203,7 @@ void Window::unwrap_mouse() {
     const double inside_x = away_from_edges(x, io.DisplaySize.x), inside_y = away_from_edges(y, io.DisplaySize.y);
     if (inside_x != x || inside_y != y) {
         glfwSetCursorPos(window_, inside_x, inside_y);
-        double moved_x = 0, moved_y = 0; // where it is, whether or not it could be moved
+        double moved_x = 0, moved_y = 0; // the cursor may have stayed: the display server decides
         glfwGetCursorPos(window_, &moved_x, &moved_y);
         unwrapped_x_ += x - moved_x;
         unwrapped_y_ += y - moved_y;

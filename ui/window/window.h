@@ -47,7 +47,8 @@ public:
     // jump, beyond the window, so that a drag has no end. No effect where programs must not move the cursor (Wayland).
     void wrap_cursor(bool on);
     void begin_frame();
-    // Renders ImGui's draw data over a cleared window and swaps the buffers. False without doing so if the window shows that already.
+    // Renders ImGui's draw data over a cleared window and swaps the buffers. Returns false, and draws nothing, if the window
+    // shows the same already.
     bool end_frame();
 
     bool frames_due() const { return frames_due_ > 0; }

@@ -7,6 +7,7 @@
 #include "scene/lights/color_temperature.h"
 #include "scene/lights/light_units.h"
 #include "scene/lights/light_visibility.h"
+#include "scene/node_name.h"
 #include "scene/world_transforms.h"
 
 #include <algorithm>
@@ -23,8 +24,6 @@ using Grouping = LightMix::Grouping;
 // Key of a group: the kind of emitter, and its id or the group's manual name.
 enum class KeyKind { environment, light, object, material, hand, unlit };
 using Key = std::tuple<KeyKind, uint32_t, std::string>;
-
-std::string named(const std::string& name, const char* kind, uint32_t id) { return name.empty() ? fmt::format("{} {}", kind, id) : name; }
 
 bool is_emissive(const Material& m) { return m.unlit || !is_black(emission_of(m)); }
 
@@ -66,14 +65,22 @@ private:
     void add_light(Id<Node> id, const Node& node, const Light& light) {
         int group = 0;
         if (by_ == Grouping::by_object)
-            group = index_of({KeyKind::object, id.value, {}}, named(node.name, "Object", id.value));
+            group = index_of({KeyKind::object, id.value, {}}, node_name(scene_, id, node));
         else if (by_ == Grouping::by_hand && !light.group.empty())
             group = index_of({KeyKind::hand, 0, light.group}, light.group);
         else
-            group = index_of({KeyKind::light, node.light.value, {}}, named(light.name, "Light", node.light.value));
+            group = group_of_light(id, node, light);
         groups_.light_nodes[id] = group;
         std::vector<Id<Light>>& lights = groups_.groups[size_t(group)].lights;
         if (std::ranges::find(lights, node.light) == lights.end()) lights.push_back(node.light);
+    }
+
+    // Several nodes may have one light: then the group has the name of the light, if there is one.
+    int group_of_light(Id<Node> id, const Node& node, const Light& light) {
+        const size_t count = groups_.groups.size();
+        const int group = index_of({KeyKind::light, node.light.value, {}}, node_name(scene_, id, node));
+        if (groups_.groups.size() == count && !light.name.empty()) groups_.groups[size_t(group)].name = light.name;
+        return group;
     }
 
     void add_surfaces(Id<Node> id, const Node& node, const Mesh& mesh) {
@@ -94,8 +101,8 @@ private:
 
     int group_of_surface(Id<Node> id, const Node& node, Id<Material> material_id, const Material& material) {
         if (by_ == Grouping::by_light || by_ == Grouping::by_object)
-            return groups_.surface_nodes[id] = index_of({KeyKind::object, id.value, {}}, named(node.name, "Object", id.value));
-        const std::string name = named(material.name, "Material", material_id.value);
+            return groups_.surface_nodes[id] = index_of({KeyKind::object, id.value, {}}, node_name(scene_, id, node));
+        const std::string name = material.name.empty() ? fmt::format("Material {}", material_id.value) : material.name;
         const Key key = by_ == Grouping::by_hand ? Key{KeyKind::hand, 0, name} : Key{KeyKind::material, material_id.value, {}};
         return groups_.surface_materials[material_id] = index_of(key, name);
     }

@@ -109,8 +109,18 @@ Estimates estimates_of(std::vector<double> values) {
     return e;
 }
 
+// Cells of a cube of side^3 cells that a surface crosses, when `photons` fell into `occupied` of them: as many as are expected to be
+// occupied by photons spread evenly, and at most those of a plane.
+double surface_cells(double photons, double occupied, int32_t side) {
+    const double plane = double(side) * double(side);
+    double cells = occupied;
+    for (int i = 0; i < 16; ++i) cells = std::min(plane, occupied / -std::expm1(-photons / cells));
+    return std::max(cells, occupied);
+}
+
 struct Region {
     const std::vector<size_t>* cells; // with photons
+    int32_t side;                     // of the cube, in cells
     GuidingQuadtree tree;
     double guided = 0;                              // share of samples
     double paths = 0;                               // vertices of paths in it
@@ -181,6 +191,7 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     // A cell's region is the smallest with enough photons.
     const size_t cells = by_cell.begins.size() - 1;
     std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of; // by size, block and side
+    std::array<std::vector<size_t>, region_sides.size()> photons_of;
     std::array<std::vector<int32_t>, region_sides.size()> region_of;
     const auto block_of = [&](size_t size, size_t cell) {
         const CellBlocks blocks{grid_, region_sides[size]};
@@ -188,22 +199,24 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     };
     for (size_t size = 0; size < region_sides.size(); ++size) {
         cells_of[size].resize(size_t(CellBlocks{grid_, region_sides[size]}.count()) * guiding_sides);
+        photons_of[size].resize(cells_of[size].size());
         region_of[size].assign(cells_of[size].size(), -1);
         for (size_t k = 0; k < cells; ++k)
-            if (!by_cell.of(k).empty()) cells_of[size][block_of(size, k)].push_back(k);
+            if (const size_t count = by_cell.of(k).size(); count > 0) {
+                const size_t block = block_of(size, k);
+                cells_of[size][block].push_back(k);
+                photons_of[size][block] += count;
+            }
     }
     std::vector<Region> regions;
     std::vector<int32_t> of_cell(cells, -1);
     for (size_t k = 0; k < cells; ++k) {
-        if (by_cell.of(k).empty()) continue;
         for (size_t size = 0; size < region_sides.size(); ++size) {
             const size_t block = block_of(size, k);
-            size_t count = 0;
-            for (const size_t cell : cells_of[size][block]) count += by_cell.of(cell).size();
-            if (count < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
+            if (photons_of[size][block] < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
             if (region_of[size][block] < 0) {
                 region_of[size][block] = int32_t(regions.size());
-                regions.push_back({.cells = &cells_of[size][block]});
+                regions.push_back({.cells = &cells_of[size][block], .side = region_sides[size]});
             }
             of_cell[k] = region_of[size][block];
             break;
@@ -215,7 +228,8 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         std::vector<GuidingPoint> points = by_cell.of_all(*region.cells);
         double flux = 0;
         for (const GuidingPoint& p : points) flux += p.flux;
-        const double caustic = flux / (double(emitted) * cell_area * double(region.cells->size()));
+        const double area = cell_area * surface_cells(double(points.size()), double(region.cells->size()), region.side);
+        const double caustic = flux / (double(emitted) * area);
         std::vector<double> values = found.of_all(*region.cells);
         region.paths = double(values.size());
         const Estimates other = estimates_of(std::move(values));

@@ -115,15 +115,33 @@ TEST(LightGroups, AreMadeByLightObjectMaterialOrHand) {
         if (!is_black(material.emissive)) material.name = "Glow";
         studio.scene.materials.set(id, material);
     }
-    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Bulb", "Panel", "Sun", "Ball"}));
-    EXPECT_EQ(names_by(Grouping::by_object, studio.scene), (Names{"Environment", "Object 3", "Softbox", "Object 5", "Ball"}));
-    EXPECT_EQ(names_by(Grouping::by_material, studio.scene), (Names{"Environment", "Bulb", "Panel", "Sun", "Glow"}));
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Bulb", "Softbox", "Sun", "Ball"}))
+        << "the name that the outliner shows: of the node, if it has one";
+    EXPECT_EQ(names_by(Grouping::by_object, studio.scene), (Names{"Environment", "Bulb", "Softbox", "Sun", "Ball"}));
+    EXPECT_EQ(names_by(Grouping::by_material, studio.scene), (Names{"Environment", "Bulb", "Softbox", "Sun", "Glow"}));
     studio.change(studio.bulb, [](Light& l) { l.group = "Warm"; });
     studio.scene.environment.group = "Glow";
-    EXPECT_EQ(names_by(Grouping::by_hand, studio.scene), (Names{"Glow", "Warm", "Panel", "Sun"})) << "by the material's name";
-    studio.change(studio.panel, [](Light& l) { l.name = "Bulb"; });
-    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Bulb", "Bulb 2", "Sun", "Ball"}))
+    EXPECT_EQ(names_by(Grouping::by_hand, studio.scene), (Names{"Glow", "Warm", "Softbox", "Sun"})) << "by the material's name";
+    Node bulb = *studio.scene.nodes.find(studio.bulb);
+    bulb.name = "Softbox";
+    studio.scene.nodes.set(studio.bulb, bulb);
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene), (Names{"Environment", "Softbox", "Softbox 2", "Sun", "Ball"}))
         << "duplicate names get numbers";
+}
+
+TEST(LightGroups, OfALightOnSeveralNodesHasTheNameOfTheLight) {
+    Studio studio;
+    Node first = *studio.scene.nodes.find(studio.bulb);
+    first.name = "Left";
+    studio.scene.nodes.set(studio.bulb, first);
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene)[1], "Left");
+    Node second = first;
+    second.name = "Right";
+    studio.scene.nodes.add(second);
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene)[1], "Bulb");
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene).size(), 5u);
+    studio.change(studio.bulb, [](Light& l) { l.name.clear(); });
+    EXPECT_EQ(names_by(Grouping::by_light, studio.scene)[1], "Left");
 }
 
 TEST(LightGroups, ShareTheLastPlaneIfThereAreTooMany) {

@@ -220,7 +220,7 @@ TEST_P(MixAim, SamplesByTheMixWithoutBias) {
         r->render(0, 16);
     }
     for (const char* off : {"Environment", "Panel", "Sun"}) studio.channel(off).enabled = false;
-    if (many) studio.channel("Object 6").enabled = false;
+    if (many) studio.channel("Node 6").enabled = false;
     for (Renderer* r : {&follows, &scatter_share}) EXPECT_FALSE(r->update(studio.scene, settings));
     follows.select_lights_by_mix();
     for (Renderer* r : {&follows, &scatter_share}) r->render(16, 80);
@@ -237,7 +237,7 @@ LightMix some_mix() {
     mix.channels.push_back({.group = "Bulb", .intensity = 3, .color = {1, 0.5f, 0.25f}});
     mix.channels.push_back({.group = "Panel", .enabled = false});
     mix.channels.push_back({.group = "Environment", .intensity = 0.5f, .use_temperature = true, .kelvin = 9000});
-    mix.channels.push_back({.group = "Object 6", .intensity = 2});
+    mix.channels.push_back({.group = "Node 6", .intensity = 2});
     return mix;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -133,12 +134,25 @@ TEST(MultiEdit, IsOneStepWithOneEditPerChangedLight) {
     const std::vector<Edit> edits = change_lights(r.scene, lights, mute);
     EXPECT_EQ(edits.size(), 1u) << "Key is on already";
     Document document(Project{r.scene, {}, {}});
-    ASSERT_TRUE(document.apply(edits, label_for("Mute", r.scene, lights)));
+    ASSERT_TRUE(document.apply(edits, label_for("Mute", r.scene, lights, Ids{r.key, r.fill})));
     EXPECT_EQ(document.undo_label(), "Mute 2 lights");
     EXPECT_FALSE(document.project().scene.lights.find({2})->enabled);
     document.undo();
     EXPECT_TRUE(document.project().scene == r.scene);
-    EXPECT_EQ(label_for("Mute", r.scene, std::vector<Id<Light>>{{1}}), "Mute light Key");
+}
+
+TEST(MultiEdit, NamesALightAsTheOutlinerDoes) {
+    Rig r;
+    const std::vector<Id<Light>> key{{1}};
+    EXPECT_EQ(label_for("Mute", r.scene, key, Ids{r.key}), "Mute light Key") << "the light's name, as the node has none";
+    Node node = *r.scene.nodes.find(r.key);
+    node.name = "Window left";
+    r.scene.nodes.set(r.key, node);
+    node.name = "Window right";
+    const Id<Node> right = r.scene.nodes.add(node);
+    EXPECT_EQ(label_for("Mute", r.scene, key, Ids{r.stand}), "Mute light Window left");
+    EXPECT_EQ(label_for("Mute", r.scene, key, Ids{right}), "Mute light Window right");
+    EXPECT_EQ(label_for("Mute", r.scene, key, {}), "Mute light Window left") << "it is not selected";
 }
 
 TEST(MultiEdit, ListsDifferingFields) {
@@ -167,7 +181,7 @@ TEST(EnvironmentRotation, FollowsTheMouse) {
     Lens lens;
     lens.yfov_radians = 1.2f;
     // One per cent of the image in its centre, as an angle.
-    const double angle = std::atan(0.01 * 2 * std::tan(0.6)) * 180 / 3.14159265;
+    const double angle = std::atan(0.01 * 2 * std::tan(0.6)) * 180 / std::numbers::pi;
     EXPECT_NEAR(turned_rotation(10, 0.01, lens), 10 - angle, 1e-3) << "to the right is clockwise seen from above";
     EXPECT_NEAR(turned_rotation(-179, 0.1, lens), 173.2, 0.1) << "around";
 }

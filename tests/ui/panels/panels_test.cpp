@@ -1,6 +1,7 @@
 // Every panel with every type of selection: drawing must not edit the document, for any values.
 #include "io/gltf/read/import.h"
 #include "render/lights/light_links.h"
+#include "tests/support/eventually.h"
 #include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
@@ -246,7 +247,27 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
     EXPECT_FALSE(document.can_undo());
 }
 
-// The Specialisation section has a line per unused feature; used features are below a collapsed heading.
+TEST_F(Panels, TheShortcutSheetListsAllKeys) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_shortcuts.json";
+    Document document;
+    ui.probe = Probe(file);
+    ui.show_shortcuts = true;
+    for (int i = 0; i < 3; ++i) {
+        ui.probe.begin_frame();
+        in_window([&] {
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            draw_shortcut_sheet(c);
+        });
+    }
+    ui.probe.end_frame({});
+    std::ifstream in(file);
+    const std::string written{std::istreambuf_iterator<char>(in), {}};
+    for (const Shortcut& s : shortcuts())
+        EXPECT_EQ(written.find(std::string("\"Shortcut/") + s.group + "/" + s.name + "\"") != std::string::npos, s.press.key != key::none)
+            << s.name;
+    std::filesystem::remove(file);
+}
+
 TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFound) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_status.json";
     ui.probe = Probe(file);
@@ -273,6 +294,32 @@ TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFound) {
     std::filesystem::remove(file);
 }
 
+TEST_F(Panels, NewScopesNeedAFrameForTheirWaveforms) {
+    Document document;
+    auto image = std::make_shared<Frame>();
+    image->width = image->height = 2;
+    image->divider = 1;
+    image->rgba.assign(16, 0.5f);
+    frame = image;
+    constexpr double idle = 1;
+    const auto draw = [&] {
+        ui.seconds_to_next_frame = idle;
+        in_window([&] {
+            PanelContext c{document, ui, color, frame, SessionStatus(), 640, 480};
+            draw_scopes_panel(c);
+        });
+        return ui.seconds_to_next_frame;
+    };
+    double next = idle;
+    ASSERT_TRUE(test::eventually([&] {
+        next = draw();
+        return ui.scopes.scopes.number() == 1;
+    }));
+    EXPECT_LT(next, idle) << "the textures are made at the start of the next frame";
+    EXPECT_EQ(draw(), idle) << "endless frames";
+}
+
+// The Specialisation section has a line per unused feature; used features are below a collapsed heading.
 TEST_F(Panels, EachUnusedFeatureHasALine) {
     Document document;
     ui.settings.panels["section.Specialisation"] = 1;

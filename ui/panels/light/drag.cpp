@@ -36,7 +36,7 @@ void put_dropped_into_group(PanelContext& c, Id<Node> dropped, const std::string
     std::vector<Id<Node>> nodes{dropped};
     if (c.ui.is_selected(dropped)) nodes = c.ui.selection(c.scene());
     const std::vector<Id<Light>> lights = lights_of(c.scene(), nodes);
-    c.apply(put_into_group(c.scene(), lights, false, group), label_for(what, c.scene(), lights));
+    c.apply(put_into_group(c.scene(), lights, false, group), label_for(what, c.scene(), lights, nodes));
 }
 
 } // namespace blush

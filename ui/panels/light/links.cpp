@@ -1,5 +1,6 @@
 // Light linking: which objects a light illuminates, and which cast its shadows.
 #include "render/lights/light_links.h"
+#include "scene/node_name.h"
 #include "ui/lights/multi_edit_apply.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/widgets.h"
@@ -16,8 +17,7 @@ namespace {
 
 std::string name_of(const Scene& scene, Id<Node> id) {
     const Node* node = scene.nodes.find(id);
-    if (!node) return "deleted object";
-    return node->name.empty() ? fmt::format("Node {}", id.value) : node->name;
+    return node ? node_name(scene, id, *node) : "deleted object";
 }
 
 // Nodes with triangles in their subtree that are not in the set. Names used more than once get the node's number.

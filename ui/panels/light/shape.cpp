@@ -4,6 +4,7 @@
 #include "scene/lights/light_units.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace blush {
 namespace {
@@ -58,7 +59,7 @@ void draw_cone(Fields& f, Light& light) {
 }
 
 void draw_panel_sides(Fields& f, Light& light) {
-    constexpr float pi_f = 3.1415927f;
+    constexpr float pi_f = std::numbers::pi_v<float>;
     if (f.angle(
             "Spread", light.spread_radians,
             {.min = 0.1f,

@@ -204,7 +204,7 @@ void report_differences(const Scene& read, Scene wanted, std::vector<Diagnostic>
 
 } // namespace
 
-Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project) {
+Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project, bool store_display) {
     const Scene& scene = project.scene;
     EditedGltf edited;
     GltfDocument& document = edited.document;
@@ -239,7 +239,7 @@ Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project)
     if (!plain) return plain.error();
     edited.scene = as_saved(scene, document.indices, plain->scene);
     write_extra_fields(document, plain->scene, edited.scene);
-    write_scene_extras(document, *plain, project);
+    write_scene_extras(document, *plain, project, store_display);
     declare_extensions(document.root, extensions_before);
     const Result<ImportedScene> after = read_back(document);
     if (!after) return after.error();

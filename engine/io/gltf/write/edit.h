@@ -15,7 +15,8 @@ struct EditedGltf {
     std::vector<Diagnostic> diagnostics;
 };
 
-// Errors: a document that cannot be read back, an image that cannot be encoded. Throws nlohmann::json::exception.
-Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project);
+// `store_display`: as save_gltf. Errors: a document that cannot be read back, an image that cannot be encoded. Throws
+// nlohmann::json::exception.
+Result<EditedGltf> edited_gltf(const GltfOrigin& origin, const Project& project, bool store_display);
 
 } // namespace blush

@@ -34,7 +34,7 @@ void add_profiles(SaveTransaction& files, Table<Light>& lights, std::vector<Diag
     }
 }
 
-Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file) {
+Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file, bool store_display) {
     if (has_changed_on_disk(origin, file))
         return Error{file.string(), "has changed on disk since it was opened: reload it, or save under another name", ""};
     // Referenced files are written first, since the document holds their names.
@@ -45,7 +45,7 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
     if (named.scene.environment.image != origin.indices.image_light)
         if (const auto ok = files.add_environment(named.scene.environment); !ok) return ok.error();
     add_profiles(files, named.scene.lights, lost);
-    Result<EditedGltf> edited = edited_gltf(origin, named);
+    Result<EditedGltf> edited = edited_gltf(origin, named, store_display);
     if (!edited) return edited.error();
     edited->diagnostics.insert(edited->diagnostics.end(), lost.begin(), lost.end());
     const Result<std::string> text = files.write(edited->document, *origin.json);
@@ -61,9 +61,9 @@ Result<SavedGltf> save(const GltfOrigin& origin, const Project& project, const s
 
 } // namespace
 
-Result<SavedGltf> save_gltf(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file) {
+Result<SavedGltf> save_gltf(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file, bool store_display) {
     try {
-        return save(origin, project, file);
+        return save(origin, project, file, store_display);
     } catch (const std::bad_alloc&) { return Error{file.string(), "cannot save: not enough memory", ""}; } catch (const std::exception& e) {
         return Error{file.string(), std::string("cannot save: ") + e.what(), ""};
     }

@@ -25,6 +25,8 @@ struct SavedGltf {
 // and images beside it; both get a copy of the environment map. Atomic: after an error the old file is unchanged and no new files
 // remain. Other files are never overwritten: a free name is used. Errors: an unknown extension, a referenced file that cannot be
 // read, a folder that cannot be written, more than 4 GB.
-Result<SavedGltf> save_gltf(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file);
+// `store_display`: writes the display settings even if they are the defaults, so that opening the file does not meter the exposure.
+Result<SavedGltf> save_gltf(const GltfOrigin& origin, const Project& project, const std::filesystem::path& file,
+                            bool store_display = false);
 
 } // namespace blush

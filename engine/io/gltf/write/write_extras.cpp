@@ -8,6 +8,7 @@
 #include "io/gltf/read/source.h"
 #include "io/project/settings_json.h"
 
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -166,7 +167,7 @@ void write_extra_fields(GltfDocument& document, const Scene& read, const Scene& 
     });
 }
 
-void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project) {
+void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project, bool store_display) {
     Json& scene = document.scene();
     Environment environment = project.scene.environment;
     environment.image = read.scene.environment.image; // pixels are compared by file
@@ -184,7 +185,8 @@ void write_scene_extras(GltfDocument& document, const ImportedScene& read, const
                        to_json(project.scene.view));
     write_scene_member(scene, "render", read.render.value_or(RenderSettings{}), project.render,
                        Json::parse(render_settings_json(project.render)));
-    write_scene_member(scene, "display", read.view.value_or(ViewSettings{}), project.view, Json::parse(view_settings_json(project.view)));
+    const std::optional<ViewSettings> display_read = store_display ? read.view : read.view.value_or(ViewSettings{});
+    write_scene_member(scene, "display", display_read, std::optional(project.view), Json::parse(view_settings_json(project.view)));
 }
 
 } // namespace blush

@@ -19,7 +19,7 @@ void clear_extras(Json& object);
 void write_ids(GltfDocument& document);
 // Writes names, and fields that differ in `read`. Records must have the ids of `scene`.
 void write_extra_fields(GltfDocument& document, const Scene& read, const Scene& scene);
-// Writes environment, light mix, view and settings where they differ from `read`.
-void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project);
+// Writes environment, light mix, view and settings where they differ from `read`. `store_display`: as save_gltf.
+void write_scene_extras(GltfDocument& document, const ImportedScene& read, const Project& project, bool store_display);
 
 } // namespace blush

@@ -148,6 +148,20 @@ TEST(GltfSaveDocument, NoEditsLeaveTheDocumentUnchanged) {
     }
 }
 
+TEST(GltfSaveDocument, DefaultDisplaySettingsAreStoredOnRequest) {
+    const TempFolder folder;
+    const ImportedScene original = load(shipped("cornell"));
+    const Project project{original.scene, {}, {}};
+    const std::filesystem::path file = folder / "saved.gltf";
+    ASSERT_TRUE(save_gltf(original.origin, project, file));
+    EXPECT_FALSE(load(file).view);
+    const auto stored = save_gltf(original.origin, project, file, true);
+    ASSERT_TRUE(stored) << error_text(stored);
+    EXPECT_EQ(load(file).view, ViewSettings{});
+    ASSERT_TRUE(save_gltf(stored->origin, project, file));
+    EXPECT_EQ(load(file).view, ViewSettings{}) << "the next save keeps them";
+}
+
 TEST(GltfSaveDocument, UnknownThingsAndTheirOrderAreKept) {
     const TempFolder folder;
     const ImportedScene original = load(rich_gltf(folder));
