@@ -237,7 +237,8 @@ TEST(MeshLightTrees, DoNotDependOnTheNumberOfThreads) {
 }
 
 const void* tree_of(const Compiled& compiled, int64_t light) {
-    return compiled.lights().tree.entries[~compiled.lights().lights[light].slot].mesh;
+    const LightTree& tree = compiled.lights().tree;
+    return tree.meshes[tree.entries[~compiled.lights().lights[light].slot].mesh].nodes;
 }
 
 // Edits of the emission keep the tree of the mesh, a move does not; the selection is that of a fresh start.
