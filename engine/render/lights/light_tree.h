@@ -89,7 +89,7 @@ struct LightTreeTable {
 constexpr double uniform_share = 1.0 / 64;
 // Meshes with fewer emissive triangles have no tree of their own: their triangles are leaves of the scene's tree.
 constexpr int64_t min_triangles_for_a_tree = 32;
-// Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB.
-constexpr int64_t min_triangles_for_patches = 1024;
+// Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB: at most 256 bytes a triangle.
+constexpr int64_t min_triangles_for_patches = 256;
 
 } // namespace blush
