@@ -80,6 +80,7 @@ inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
 inline int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
 inline int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
+inline uint32_t min(uint32_t a, uint32_t b) { return a < b ? a : b; }
 inline Wide sqrt(Wide x) { return stdx::sqrt(x); }
 inline Wide abs(Wide x) { return stdx::abs(x); }
 inline Wide floor(Wide x) { return stdx::floor(x); }

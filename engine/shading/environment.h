@@ -67,6 +67,8 @@ template <class F> Vec<F> radiance_of_cell(const EnvironmentTables& env, const E
 }
 template <class F> Vec<F> environment_radiance(const EnvironmentTables& env, const Vec<F>& direction, const Mask<F>& active) {
     if (!any(active)) return splat<F>(0.f);
+    if (env.width == 1 && env.height == 1) // constant or none: the same without the angles
+        return select(active, Vec<F>{F(env.texels[0]), F(env.texels[1]), F(env.texels[2])} * splat<F>(env.scale), splat<F>(0.f));
     return radiance_of_cell<F>(env, environment_cell<F>(env, direction), active);
 }
 

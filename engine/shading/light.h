@@ -12,29 +12,33 @@
 #include "shading/light_selection.h"
 #include "shading/portals.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace blush {
 
 enum class LightKind : int32_t { triangle, point, sphere, sun, environment };
 
-struct LightRecord {
-    int32_t kind;  // LightKind
-    int32_t flags; // LightFlag
-    int32_t part;  // triangle: the part whose material and vertices give a varying emission
+struct alignas(128) LightRecord {
+    // Light sampling reads these 64 bytes, one cache line.
+    int32_t kind;           // LightKind
+    int32_t flags;          // LightFlag
+    int32_t clearance = -1; // triangle on the convex hull of its mesh: the box of the mesh in LightTables::clearances; -1: none
+    Vec3 position;          // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
+    Vec3 edge1, edge2;      // triangle: vertices 1 and 2 minus vertex 0
+    // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
+    Vec3 emission;
+    float inverse_area; // triangle: 1 / m^2
+
+    int32_t part; // triangle: the part whose material and vertices give a varying emission
     int32_t triangle;
     int32_t profile;   // index of the ProfileRecord that scales the emission by direction, -1: none
     int32_t object;    // sphere: Id<Node>.value of its node
     int32_t slot;      // in the tree: ~ its entry; distant: its index among the distant lights, or in slot_lights if they are one
-    Vec3 position;     // triangle: vertex 0; point: itself; sphere: its centre; sun: unit direction towards it
-    Vec3 edge1, edge2; // triangle: vertices 1 and 2 minus vertex 0
-    // constant triangle, sphere: nits, times the opacity; point: candela; sun: nits of its disk, or lux if parallel
-    Vec3 emission;
-    float inverse_area;     // triangle: 1 / m^2
-    float radius;           // sphere: metres
-    float cone_height;      // sun: 1 - cos of its angular radius; 0 is a parallel beam
-    int32_t clearance = -1; // triangle on the convex hull of its mesh: the box of the mesh in LightTables::clearances; -1: none
+    float radius;      // sphere: metres
+    float cone_height; // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
+static_assert(offsetof(LightRecord, part) == 64);
 enum LightFlag : int32_t {
     light_two_sided = 1,
     light_varying = 2,  // emission or alpha vary over the triangle
@@ -74,7 +78,8 @@ template <Features S, class F>
 DiscreteSample<F> pick_light(const LightTables& table, const Receiver<F>& to, const Pair<F>& random, const Mask<F>& active) {
     if constexpr (S.has(Feature::light_tree)) {
         if (!table.tree.empty()) {
-            const TreeSample<F> s = sample_tree<F>(table.tree, to, unit_float<F>(random.bits_x), random.bits_y, active);
+            const auto fetch = [&](int32_t light) { __builtin_prefetch(table.lights + light); };
+            const TreeSample<F> s = sample_tree<F>(table.tree, to, unit_float<F>(random.bits_x), random.bits_y, active, fetch);
             const Mask<F> among_distant = active && as_mask(s.light < 0);
             if (!any(among_distant)) return {s.light, s.probability, s.remainder};
             const UInt<F> slot_bits = (to_unsigned(to_int(F(s.remainder * 0x1p24f))) << 8) | (pcg_hash(random.bits_x) >> 24);

@@ -23,8 +23,8 @@ struct ProfileRecord {
 };
 
 struct ProfileTables {
-    const ProfileRecord* records = nullptr;
-    const float* numbers = nullptr; // angles in turns
+    const ProfileRecord* records = nullptr; // null: no light has a profile
+    const float* numbers = nullptr;         // angles in turns
 };
 
 } // namespace blush

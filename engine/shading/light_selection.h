@@ -56,9 +56,82 @@ template <class F> struct TreeSample {
     F remainder;   // uniform in [0, 1), independent of the light
 };
 
-// Traverses by `u` in [0, 1), which has 24 bits, and by more random bits.
-template <class F>
-TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u, const UInt<F>& random_bits, const Mask<F>& active) {
+// Children of the root that are nodes or meshes, in the lanes of `below`.
+template <class F> struct RootChild {
+    Int<F> chosen;
+    Mask<F> like, afar, below;
+};
+// Selects a light below a child of the root.
+template <class F, class Fetch> TreeSample<F> pick_below(const LightTree& tree, const Receiver<F>& to, const RootChild<F>& root,
+                                                         TreeSample<F> sample, const UInt<F>& random, const Fetch& fetch) {
+    // Most meshes that are alike or far away are children of the root: no traversal.
+    const Int<F> child = gather(tree.nodes->child, root.chosen);
+    const Mask<F> at_mesh = root.below && as_mask(child < 0);
+    const Int<F> entry = select(at_mesh, Int<F>(~child), Int<F>(0));
+    MeshPick<F> pick{select(at_mesh, gather_field(tree.entries, &LightTreeEntry::mesh, entry), Int<F>(0)), sample.probability,
+                     sample.remainder, random};
+    sample.light = select(at_mesh, gather_field(tree.entries, &LightTreeEntry::light, entry), sample.light);
+    Mask<F> in_mesh = at_mesh && root.like;
+    Mask<F> by_patch = Mask<F>(false);
+    LeafRange<F> among{UInt<F>(0u), UInt<F>(0u)};
+    if (any(at_mesh)) {
+        by_patch = at_mesh && !root.like && root.afar && as_mask(gather_field(tree.meshes, &MeshLightTree::has_patches, pick.mesh) != 0);
+        among.end = gather_field(tree.meshes, &MeshLightTree::leaf_count, pick.mesh);
+        in_mesh = in_mesh || by_patch;
+    }
+    if (const unsigned others = bits(Mask<F>(root.below && !in_mesh))) {
+        const ReceiverLanes<F> receivers(to);
+        const unsigned like_bits = bits(root.like), afar_bits = bits(root.afar);
+        alignas(64) int32_t lights[width<F>], meshes[width<F>], patch_lanes[width<F>];
+        alignas(64) float probabilities[width<F>], remainders[width<F>];
+        alignas(64) uint32_t randoms[width<F>], begins[width<F>], ends[width<F>];
+        store(lights, sample.light);
+        store(probabilities, sample.probability);
+        store(remainders, sample.remainder);
+        store(meshes, select(in_mesh, pick.mesh, Int<F>(-1)));
+        store(patch_lanes, select(by_patch, Int<F>(1), Int<F>(0)));
+        store(randoms, random);
+        store(begins, among.begin);
+        store(ends, among.end);
+        for_each_lane(others, [&](int i) {
+            const TreePick one = pick_below_root(tree, receivers[i], lane(root.chosen, i), like_bits >> i & 1, afar_bits >> i & 1,
+                                                 {0, probabilities[i], remainders[i], randoms[i]});
+            lights[i] = one.light;
+            probabilities[i] = one.probability;
+            remainders[i] = one.remainder;
+            randoms[i] = one.random;
+            meshes[i] = one.mesh;
+            patch_lanes[i] = one.mesh >= 0 && one.among.begin == one.among.end;
+            begins[i] = one.among.begin;
+            ends[i] = one.among.end;
+        });
+        sample = {load<Int<F>>(lights), load<F>(probabilities), load<F>(remainders)};
+        const Int<F> mesh = load<Int<F>>(meshes);
+        in_mesh = as_mask(mesh >= 0);
+        by_patch = as_mask(load<Int<F>>(patch_lanes) != 0);
+        pick = {max(mesh, Int<F>(0)), sample.probability, sample.remainder, load<UInt<F>>(randoms)};
+        among = {load<UInt<F>>(begins), load<UInt<F>>(ends)};
+    }
+    if (!any(in_mesh)) return sample;
+    if (const unsigned lanes = bits(by_patch)) {
+        MeshPick<F> with_patch = pick;
+        const LeafRange<F> leaves = pick_patch<F>(tree.meshes, to.position, lanes, with_patch);
+        among = {select(by_patch, leaves.begin, among.begin), select(by_patch, leaves.end, among.end)};
+        pick.probability = select(by_patch, with_patch.probability, pick.probability);
+        pick.remainder = select(by_patch, with_patch.remainder, pick.remainder);
+        pick.random = select(by_patch, with_patch.random, pick.random);
+    }
+    const Mask<F> found = in_mesh && pick.probability > F(0.f);
+    const TrianglePick<F> one = pick_by_power<F>(tree.meshes, sample.light, pick, among, bits(found), fetch);
+    sample.light = select(found, one.light, sample.light);
+    sample.probability = select(in_mesh, select(found, one.probability, F(0.f)), sample.probability);
+    sample.remainder = select(found, one.remainder, sample.remainder);
+    return sample;
+}
+
+// Traverses by `u` in [0, 1), which has 24 bits, and by more random bits. `fetch(light)`: starts to load what will be read of a light.
+template <class F, class Fetch> TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F& u,
+                                                          const UInt<F>& random_bits, const Mask<F>& active, const Fetch& fetch) {
     RootImportances<F> root;
     find_root_importances<F>(tree, tree_receiver<F>(to.position, to.normal), root);
     // Selects the last child with non-zero importance whose range begins at or below the random number.
@@ -86,24 +159,9 @@ TreeSample<F> sample_tree(const LightTree& tree, const Receiver<F>& to, const F&
     const F within = (at - begin + unit_float<F>(random) * (root.sum * 0x1p-24f)) / max(importance, F(1e-37f));
     const F probability = select(lit, F(importance / max(root.sum, F(1e-37f))), F(0.f));
     const F remainder = min(max(within, F(0.f)), F(one_minus_epsilon));
-    const unsigned below = bits(Mask<F>(lit && is_below));
-    if (!below) return {light, probability, remainder};
-
-    const ReceiverLanes<F> receivers(to);
-    const unsigned like_bits = bits(is_like), afar_bits = bits(is_afar);
-    alignas(64) int32_t lights[width<F>];
-    alignas(64) float probabilities[width<F>], remainders[width<F>];
-    store(lights, light);
-    store(probabilities, probability);
-    store(remainders, remainder);
-    for_each_lane(below, [&](int i) {
-        const TreePick pick = pick_below_root(tree, receivers[i], lane(chosen, i), like_bits >> i & 1, afar_bits >> i & 1,
-                                              {0, probabilities[i], remainders[i]}, lane(random, i));
-        lights[i] = pick.light;
-        probabilities[i] = pick.probability;
-        remainders[i] = pick.remainder;
-    });
-    return {load<Int<F>>(lights), load<F>(probabilities), load<F>(remainders)};
+    const Mask<F> below = lit && is_below;
+    if (!any(below)) return {light, probability, remainder};
+    return pick_below(tree, to, {chosen, is_like, is_afar, below}, {light, probability, remainder}, random, fetch);
 }
 
 // Probability that sample_tree selects `light`: a distant light where `slot` >= 0, else of entry ~slot.

@@ -16,6 +16,7 @@
 #include "core/block.h"
 #include "core/sampler.h"
 #include "shading/light_visibility.h"
+#include "shading/mesh_light_tree.h"
 
 #include <cstdint>
 
@@ -39,22 +40,6 @@ struct alignas(64) LightTreeNode {
     uint32_t first_leaf;
 };
 
-// The tree of a mesh.
-struct MeshLightTree {
-    const LightTreeNode* nodes;
-    const uint32_t* thresholds; // by leaf: make_thresholds of the powers
-    const int32_t* triangles;   // by leaf
-    const uint32_t* trails;     // by triangle: the path from the root, tree_branch_bits for each level, the root's lowest; no_trail
-    const int32_t* leaves;      // by triangle
-    uint32_t leaf_count;
-    // The mesh seen from afar; null: it is not large. By direction from the centre and by patch: make_thresholds of what the patch gives.
-    // A patch has the leaves whose thresholds are in [i, i + 1) / mesh_patches.
-    const uint32_t* patch_thresholds;
-    const uint32_t* patch_begins; // first leaf by patch, and the number of leaves
-    Vec3 center;
-};
-constexpr int direction_cells = 16, patch_bits = 6, mesh_patches = 1 << patch_bits; // cells along each side of the octahedral map
-
 // A light at infinity; or all of them, if there are many.
 struct DistantLight {
     Vec3 direction;  // unit, towards a sun; zero: the environment or all lights
@@ -66,14 +51,15 @@ constexpr int max_distant_lights = 16;
 
 // A leaf of the scene's tree: a light or a mesh.
 struct LightTreeEntry {
-    const MeshLightTree* mesh; // null: a light
-    int32_t light;             // of a mesh: that of its first triangle
-    uint32_t trail;            // in the scene's tree
+    int32_t mesh;   // index into LightTree::meshes; -1: a light
+    int32_t light;  // of a mesh: that of its first triangle
+    uint32_t trail; // in the scene's tree
 };
 
 struct LightTree {
     const LightTreeNode* nodes = nullptr; // of the scene's tree, the first is the root
     const LightTreeEntry* entries = nullptr;
+    const MeshLightTree* meshes = nullptr;
     const int32_t* root_lights = nullptr; // by child of the root: its light; -1: a node or a mesh
     const DistantLight* distant = nullptr;
     int32_t root_count = 0, distant_count = 0; // of the root's children, which is 0 without nodes
@@ -127,7 +113,7 @@ template <class V> struct ChildImportance {
     V value;
     Mask<V> lit;  // it is positive
     Mask<V> like; // its lights look nearly alike: selection by power is good enough
-    Mask<V> afar; // they look alike except for their normals: the table by direction of the receiver (patch_thresholds) is accurate enough
+    Mask<V> afar; // they look alike except for their normals: the table by direction of the receiver (MeshPatches) is accurate enough
 };
 // They look alike if the least factor of distance, receiver's cosine and emission is at least this share of the largest.
 constexpr float like_share = 0.3f, afar_share = 0.1f;
@@ -136,19 +122,25 @@ constexpr float like_share = 0.3f, afar_share = 0.1f;
 template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, const TreeReceiver<V>& to) {
     const Vec<V> away = to.position - b.center;
     const V d2 = max(dot(away, away), V(1e-30f)), d = sqrt(d2), over_d = 1.f / d;
-    // The cone of the child's bounding sphere as seen by the receiver; from inside, all directions are possible.
     const V ratio = min(V(b.radius * over_d), V(1.f));
-    const Mask<V> within = ratio >= V(1.f);
-    const V sin_b = select(within, V(0.f), ratio), cos_b = select(within, V(-1.f), sqrt(V(1.f - ratio * ratio)));
+    const Mask<V> within = ratio >= V(1.f); // all directions are possible
+    const V sin_b = select(within, V(0.f), ratio);
 
     V cos_w = dot(b.axis, away) * over_d;
     cos_w = float_from_bits(Int<V>(float_bits(cos_w) & b.sides));
-    const V sin_w = sqrt(max(V(0.f), V(1.f - cos_w * cos_w)));
-    // Angle to the nearest normal: max(0, w - o); then to the nearest direction: max(0, x - b).
-    const Mask<V> in_cone = cos_w > b.cos_o;
-    const V cos_x = select(in_cone, V(1.f), V(cos_w * b.cos_o + sin_w * b.sin_o));
-    const V sin_x = select(in_cone, V(0.f), max(V(0.f), V(sin_w * b.cos_o - cos_w * b.sin_o)));
-    const V cos_p = select(cos_x > cos_b, V(1.f), V(cos_x * cos_b + sin_x * sin_b));
+    const Mask<V> in_cone = cos_w > b.cos_o, may_turn = b.cos_o <= V(0.f) || cos_w <= V(0.f); // the sum of angles may exceed pi
+    V cos_p = V(1.f), cos_f = V(0.f);                                                         // cos_f only where not may_turn
+    if (!all(in_cone && may_turn)) {
+        // The cone of the child's bounding sphere as seen by the receiver.
+        const V cos_b = select(within, V(-1.f), sqrt(V(1.f - ratio * ratio)));
+        const V sin_w = sqrt(max(V(0.f), V(1.f - cos_w * cos_w)));
+        // Angle to the nearest normal: max(0, w - o); then to the nearest direction: max(0, x - b).
+        const V cos_x = select(in_cone, V(1.f), V(cos_w * b.cos_o + sin_w * b.sin_o));
+        const V sin_x = select(in_cone, V(0.f), max(V(0.f), V(sin_w * b.cos_o - cos_w * b.sin_o)));
+        cos_p = select(cos_x > cos_b, V(1.f), V(cos_x * cos_b + sin_x * sin_b));
+        // Angle to the farthest direction, w + o + b.
+        cos_f = (cos_w * b.cos_o - sin_w * b.sin_o) * cos_b - (sin_w * b.cos_o + cos_w * b.sin_o) * sin_b;
+    }
     const Mask<V> emits = cos_p > b.cos_e;
 
     // The part of the bounds above the receiver's horizon: its share, mean height and distance. Without the box, a ceiling of lights
@@ -166,10 +158,8 @@ template <class V> ChildImportance<V> child_importance(const ChildBounds<V>& b, 
     // Inside the bounds, the distance is clamped to a fraction of the child's size.
     const V importance = b.power * max(cos_p, V(0.f)) * facing / max(lit2, V(0.05f * (b.radius * b.radius)));
 
-    // Angle to the farthest direction, w + o + b.
-    const V cos_f = (cos_w * b.cos_o - sin_w * b.sin_o) * cos_b - (sin_w * b.cos_o + cos_w * b.sin_o) * sin_b;
     const V near = lowest * ((1.f - sin_b) * (1.f - sin_b)), far = highest * ((1.f + sin_b) * (1.f + sin_b));
-    const Mask<V> shaped = b.cos_e >= V(0.02f), may_turn = b.cos_o <= V(0.f) || cos_w <= V(0.f); // the sum of angles may exceed pi
+    const Mask<V> shaped = b.cos_e >= V(0.02f);
 
     ChildImportance<V> c;
     c.lit = emits && importance > V(0.f);                       // not if NaN
@@ -197,96 +187,50 @@ inline ChildImportances importances_of(const LightTreeNode& node, const TreeRece
     return all;
 }
 
+// The leaves of a child.
+inline LeafRange<float> leaves_of(const LightTreeNode& node, int k) {
+    return {k ? node.leaf_end[k - 1] : node.first_leaf, node.leaf_end[k]};
+}
+
 // A light of the tree for one receiver; or, on the way to it, what has been selected so far.
 struct TreePick {
-    int32_t light = 0;
+    int32_t light = 0; // of a mesh: that of its first triangle
     float probability = 0, remainder = 0;
+    uint32_t random = 0;
+    // >= 0: the mesh whose triangle is still to be selected, by power among these leaves; if there are none, by patch.
+    int32_t mesh = -1;
+    LeafRange<float> among{0, 0};
 };
-
-// The leaves of a child.
-struct LeafRange {
-    uint32_t begin, end;
-};
-inline LeafRange leaves_of(const LightTreeNode& node, int k) { return {k ? node.leaf_end[k - 1] : node.first_leaf, node.leaf_end[k]}; }
-// Where the share of a mesh's leaf begins, of 2^32.
-inline uint64_t threshold_of(const MeshLightTree& mesh, uint32_t leaf) {
-    return leaf < mesh.leaf_count ? uint64_t(mesh.thresholds[leaf]) : uint64_t(1) << 32;
-}
-
-// Selects one of the leaves in `among` in proportion to power, with `u` in [0, 1) (24 bits) and more random bits.
-inline TreePick pick_by_power(const LightTreeEntry& entry, const LeafRange& among, float probability, float u, uint32_t random) {
-    const MeshLightTree& mesh = *entry.mesh;
-    const uint64_t low = threshold_of(mesh, among.begin), total = threshold_of(mesh, among.end) - low;
-    const uint64_t number = uint64_t(u * 0x1p24f) << 40 | uint64_t(pcg_hash(random)) << 8;
-    const auto product = (unsigned __int128)number * total;
-    const uint64_t at = low + uint64_t(product >> 64);
-    // The last leaf that begins at or below the number.
-    uint32_t leaf = among.begin, count = among.end - among.begin;
-    while (count > 1) {
-        const uint32_t half = count / 2;
-        leaf = mesh.thresholds[leaf + half] <= at ? leaf + half : leaf;
-        count -= half;
-    }
-    const uint64_t begin = threshold_of(mesh, leaf), share = threshold_of(mesh, leaf + 1) - begin;
-    const float within = (float(int64_t(at - begin)) + float(int64_t(uint64_t(product) >> 40)) * 0x1p-24f) / float(int64_t(share));
-    return {entry.light + mesh.triangles[leaf], probability * (float(int64_t(share)) / float(int64_t(total))),
-            min(within, one_minus_epsilon)};
-}
-
-// The cell of the octahedral map (Meyer et al. 2010) that contains the direction of `v`.
-inline int direction_cell(const Vec3& v) {
-    const float scale = 1.f / (abs(v.x) + abs(v.y) + abs(v.z)), x = v.x * scale, y = v.y * scale;
-    const float fold_x = x < 0.f ? abs(y) - 1.f : 1.f - abs(y), fold_y = y < 0.f ? abs(x) - 1.f : 1.f - abs(x);
-    const auto cell = [](float c) { return min(max(to_int((0.5f * c + 0.5f) * float(direction_cells)), 0), direction_cells - 1); };
-    return cell(v.z < 0.f ? fold_x : x) + direction_cells * cell(v.z < 0.f ? fold_y : y);
-}
-// Thresholds of the mesh's patches for a receiver at `position`.
-inline const uint32_t* patches_towards(const MeshLightTree& mesh, const Vec3& position) {
-    return mesh.patch_thresholds + direction_cell(position - mesh.center) * mesh_patches;
-}
-// The end of patch i wraps to 0 if it is the last.
-inline uint32_t patch_share(const uint32_t* patches, uint32_t i) {
-    return (i + 1 < uint32_t(mesh_patches) ? patches[i + 1] : 0u) - patches[i];
-}
-
-// A triangle of a mesh that is seen from afar.
-inline TreePick pick_by_direction(const LightTreeEntry& entry, const Vec3& position, const TreePick& so_far, uint32_t random) {
-    const uint32_t* patches = patches_towards(*entry.mesh, position);
-    random = pcg_hash(random);
-    const uint32_t number = uint32_t(so_far.remainder * 0x1p24f) << 8 | random >> 24;
-    // The last patch whose threshold is at or below the number; the first is 0.
-    int reached = 0;
-    for (int k = 0; k < mesh_patches; k += width<Wide>) reached += count(as_mask(load<WideUInt>(patches + k) <= WideUInt(number)));
-    const auto patch = uint32_t(reached - 1);
-    const LeafRange leaves{entry.mesh->patch_begins[patch], entry.mesh->patch_begins[patch + 1]};
-    const uint32_t share = patch_share(patches, patch);
-    if (leaves.begin == leaves.end || share == 0) return {};
-    const float within = (float(int64_t(number - patches[patch])) + float(int64_t(random & 0xffffffu)) * 0x1p-24f) / float(int64_t(share));
-    return pick_by_power(entry, leaves, so_far.probability * (float(int64_t(share)) * 0x1p-32f), min(within, one_minus_epsilon), random);
-}
 
 // Traverses from the `chosen` child of the root. At each level the remainder is refilled from `random`, because its digits would be used
 // up after some levels.
-[[gnu::noinline]] inline TreePick pick_below_root(const LightTree& tree, const Receiver<float>& receiver, int chosen, bool like, bool afar,
-                                                  TreePick pick, uint32_t random) {
+[[gnu::noinline, gnu::flatten]] inline TreePick pick_below_root(const LightTree& tree, const Receiver<float>& receiver, int chosen,
+                                                                bool like, bool afar, TreePick pick) {
     const LightTreeNode* node = tree.nodes;
-    const LightTreeEntry* entry = nullptr;
+    const MeshLightTree* mesh = nullptr;
     const TreeReceiver<Wide> to = tree_receiver<Wide>(splat<Wide>(receiver.position), splat<Wide>(receiver.normal));
-    for (;;) {
+    const auto in_mesh = [&](int32_t index, const LeafRange<float>& among) {
+        pick.mesh = index;
+        pick.among = among;
+        return pick;
+    };
+    for (int32_t index = -1;;) {
         const int32_t child = node->child[chosen];
         if (child >= 0) {
-            if (like && entry) return pick_by_power(*entry, leaves_of(*node, chosen), pick.probability, pick.remainder, random);
+            if (like && mesh) return in_mesh(index, leaves_of(*node, chosen));
             node += child;
-        } else if (entry) {
-            pick.light = entry->light + entry->mesh->triangles[~child];
+        } else if (mesh) {
+            pick.light = pick.light + mesh->triangles[~child];
             return pick;
         } else {
-            entry = tree.entries + ~child;
-            pick.light = entry->light;
-            if (!entry->mesh) return pick;
-            if (like) return pick_by_power(*entry, {0, entry->mesh->leaf_count}, pick.probability, pick.remainder, random);
-            if (afar && entry->mesh->patch_begins) return pick_by_direction(*entry, receiver.position, pick, random);
-            node = entry->mesh->nodes;
+            const LightTreeEntry& entry = tree.entries[~child];
+            pick.light = entry.light;
+            index = entry.mesh;
+            if (index < 0) return pick;
+            mesh = tree.meshes + index;
+            if (like) return in_mesh(index, {0, mesh->leaf_count});
+            if (afar && mesh->has_patches) return in_mesh(index, {0, 0});
+            node = mesh->nodes;
         }
         const ChildImportances c = importances_of(*node, to);
         if (!c.lit) return {};
@@ -300,8 +244,8 @@ inline TreePick pick_by_direction(const LightTreeEntry& entry, const Vec3& posit
         for (int k = 0; k < block_registers; ++k)
             reached |= bits(WideMask(load<Wide>(ends + k * width<Wide>) <= Wide(at))) << (k * width<Wide>);
         chosen = int(std::bit_width(reached & c.lit)) - 1;
-        random = pcg_hash(random);
-        const float within = (at - ends[chosen] + unit_float<float>(random) * (sum * 0x1p-24f)) / importances[chosen];
+        pick.random = pcg_hash(pick.random);
+        const float within = (at - ends[chosen] + unit_float<float>(pick.random) * (sum * 0x1p-24f)) / importances[chosen];
         pick.probability = pick.probability * (importances[chosen] / sum);
         pick.remainder = min(max(within, 0.f), one_minus_epsilon);
         like = c.like >> chosen & 1;
@@ -310,17 +254,13 @@ inline TreePick pick_by_direction(const LightTreeEntry& entry, const Vec3& posit
 }
 
 // Probability of `light`, of that entry, if the root's child towards it is chosen.
-[[gnu::noinline]] inline float probability_below_root(const LightTree& tree, const Receiver<float>& receiver, const LightTreeEntry& entry,
-                                                      int32_t light, bool like, bool afar) {
-    const MeshLightTree* mesh = entry.mesh;
+[[gnu::noinline, gnu::flatten]] inline float probability_below_root(const LightTree& tree, const Receiver<float>& receiver,
+                                                                    const LightTreeEntry& entry, int32_t light, bool like, bool afar) {
+    const MeshLightTree* mesh = entry.mesh < 0 ? nullptr : tree.meshes + entry.mesh;
     const int32_t triangle = light - entry.light;
     const uint32_t mesh_trail = mesh ? mesh->trails[triangle] : 0;
     if (mesh_trail == no_trail) return 0;
-    const auto by_power = [&](const LeafRange& among) {
-        const auto leaf = uint32_t(mesh->leaves[triangle]);
-        const uint64_t share = threshold_of(*mesh, leaf + 1) - threshold_of(*mesh, leaf);
-        return float(int64_t(share)) / float(int64_t(threshold_of(*mesh, among.end) - threshold_of(*mesh, among.begin)));
-    };
+    const uint32_t leaf = mesh ? uint32_t(mesh->leaves[triangle]) : 0;
     const TreeReceiver<Wide> to = tree_receiver<Wide>(splat<Wide>(receiver.position), splat<Wide>(receiver.normal));
     const LightTreeNode* node = tree.nodes;
     uint32_t trail = entry.trail;
@@ -330,17 +270,12 @@ inline TreePick pick_by_direction(const LightTreeEntry& entry, const Vec3& posit
         const int32_t child = node->child[taken];
         trail >>= tree_branch_bits;
         if (child >= 0) {
-            if (like && in_mesh) return probability * by_power(leaves_of(*node, taken));
+            if (like && in_mesh) return probability * power_probability(*mesh, leaf, leaves_of(*node, taken));
             node += child;
         } else {
             if (in_mesh || !mesh) return probability;
-            if (like) return probability * by_power({0, mesh->leaf_count});
-            if (afar && mesh->patch_begins) {
-                const uint32_t patch = mesh->thresholds[mesh->leaves[triangle]] >> (32 - patch_bits);
-                const uint32_t share = patch_share(patches_towards(*mesh, receiver.position), patch);
-                return probability * (float(int64_t(share)) * 0x1p-32f) *
-                       by_power({mesh->patch_begins[patch], mesh->patch_begins[patch + 1]});
-            }
+            if (like) return probability * power_probability(*mesh, leaf, {0, mesh->leaf_count});
+            if (afar && mesh->has_patches) return probability * patch_probability(*mesh, receiver.position, leaf);
             in_mesh = true;
             node = mesh->nodes;
             trail = mesh_trail;

@@ -85,6 +85,7 @@ template <class F> Int<F> light_of_triangle(const SceneTables& scene, const Int<
 
 // Factor of the light's IES profile in the unit direction `away`; 1 without a profile. `light` is -1 or valid.
 template <class F> F emission_profile(const SceneTables& scene, const Int<F>& light, const Vec<F>& away, const Mask<F>& active) {
+    if (!scene.lights.profiles.records) return F(1.f);
     const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, max(light, Int<F>(0)));
     const Mask<F> shaped = active && as_mask(light >= 0) && as_mask(profile >= 0);
     if (!any(shaped)) return F(1.f);
@@ -95,7 +96,8 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 template <Features S, class F> F surface_emission_mis_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path,
                                                              const Int<F>& found, const F& t, const F& facing, const Mask<F>& active) {
     if (strategy == Strategy::bsdf) return F(1.f);
-    const Mask<F> sampled = active && as_mask(found >= 0);
+    // Where only the ray can find the emission, the weight is 1 whatever the pdf of NEE, which costs much.
+    const Mask<F> sampled = active && as_mask(found >= 0) && !(path.pdf == F(infinity));
     const Int<F> light = select(sampled, found, Int<F>(0));
     const Receiver<F> from{path.ray.origin, path.normal};
     const F per_area =

@@ -271,6 +271,7 @@ IncidentLight<F> incident_light(const SceneTables& scene, const LightPoint<F>& p
         in.radiance = select<F>(point, in.radiance * (1.f / distance_squared), in.radiance);
     }
     if constexpr (S.has(Feature::light_profiles)) {
+        if (!scene.lights.profiles.records) return in;
         const Int<F> profile = gather_field(scene.lights.lights, &LightRecord::profile, p.light);
         const Mask<F> shaped = p.valid && as_mask(profile >= 0);
         if (any(shaped)) {

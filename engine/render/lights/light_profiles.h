@@ -20,7 +20,7 @@ public:
     };
     Added add(const Light& light, const Affined& world_from_node);
 
-    ProfileTables tables() const { return {records_.data(), numbers_.data()}; }
+    ProfileTables tables() const { return empty() ? ProfileTables{} : ProfileTables{records_.data(), numbers_.data()}; }
     bool empty() const { return records_.empty(); }
     size_t memory_bytes() const { return records_.capacity() * sizeof(ProfileRecord) + numbers_.capacity() * sizeof(float); }
 

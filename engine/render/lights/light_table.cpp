@@ -29,7 +29,7 @@ struct TableBuilder {
     // `where`: of a light at finite distance; null: it is at infinity.
     void add(const LightRecord& record, Id<Node> node, double power, const LightBounds* where = nullptr) {
         if (where) {
-            add_entry({nullptr, int32_t(table.records.size()), no_trail}, *where);
+            add_entry({-1, int32_t(table.records.size()), no_trail}, *where);
             ++luminaires;
         }
         table.records.push_back(record);
@@ -53,8 +53,8 @@ struct TableBuilder {
         table.emissive_triangles = meshes.emissive_triangles;
         table.unsampled_triangles = meshes.unsampled_triangles;
         for (const MeshLightEntry& entry : meshes.entries) {
-            add_entry({entry.tree ? &entry.tree->tables() : nullptr, entry.light, no_trail}, entry.bounds);
-            if (entry.tree) table.tree.meshes.push_back(entry.tree);
+            const int32_t mesh = entry.tree ? table.tree.add_mesh(entry.tree) : -1;
+            add_entry({mesh, entry.light, no_trail}, entry.bounds);
         }
         luminaires = meshes.luminaires;
     }

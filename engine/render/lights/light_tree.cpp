@@ -17,6 +17,8 @@ namespace {
 constexpr int max_levels = 32 / tree_branch_bits - 1;
 // The children of the root are built in parallel for at least this many items.
 constexpr size_t parallel_items = size_t(1) << 13;
+constexpr int max_guide_bits = 20;
+constexpr size_t leaves_in_guide_cell = 4; // at least, and up to twice as many, if all have the same power
 
 float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3 lower(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -312,20 +314,18 @@ MeshTree::MeshTree(std::span<const LightBounds> triangles, const Workers& worker
     if (empty()) return;
     const std::vector<double> powers = with_uniform_share(triangles, shape_);
     set_light_tree_powers(shape_.nodes, powers);
+    const size_t count = shape_.items.size();
     thresholds_ = make_thresholds(powers);
+    const int guide_bits = std::clamp(int(std::bit_width(count / leaves_in_guide_cell)), 1, max_guide_bits);
+    guide_ = make_guide(thresholds_, guide_bits);
+    thresholds_.insert(thresholds_.end(), threshold_padding, ~0u);
     leaves_.assign(triangles.size(), 0);
-    for (size_t i = 0; i < shape_.items.size(); ++i) leaves_[size_t(shape_.items[i])] = int32_t(i);
+    for (size_t i = 0; i < count; ++i) leaves_[size_t(shape_.items[i])] = int32_t(i);
     bounds_ = bounds_of(usable_items(triangles));
     const bool everywhere = bounds_.theta_e >= 0.5f * std::numbers::pi_v<float>;
-    if (everywhere && int64_t(shape_.items.size()) >= min_triangles_for_patches) tabulate_directions(triangles, powers, workers);
-    tables_ = {shape_.nodes.data(),
-               thresholds_.data(),
-               shape_.items.data(),
-               shape_.trails.data(),
-               leaves_.data(),
-               uint32_t(shape_.items.size()),
-               patch_thresholds_.data(),
-               patch_begins_.empty() ? nullptr : patch_begins_.data(),
+    if (everywhere && int64_t(count) >= min_triangles_for_patches) tabulate_directions(triangles, powers, workers);
+    tables_ = {thresholds_.data(),          shape_.items.data(), guide_.data(),   patches_.get(),  shape_.nodes.data(),
+               shape_.trails.data(),        leaves_.data(),      uint32_t(count), 32 - guide_bits, patches_ != nullptr,
                to_float(center_of(bounds_))};
 }
 
@@ -333,30 +333,35 @@ MeshTree::MeshTree(std::span<const LightBounds> triangles, const Workers& worker
 // power times mean cosine.
 void MeshTree::tabulate_directions(std::span<const LightBounds> triangles, std::span<const double> powers, const Workers& workers) {
     const size_t leaf_count = shape_.items.size();
-    patch_begins_.assign(mesh_patches + 1, uint32_t(leaf_count));
-    for (size_t leaf = leaf_count; leaf-- > 0;) patch_begins_[thresholds_[leaf] >> (32 - patch_bits)] = uint32_t(leaf);
-    for (size_t k = mesh_patches; k-- > 0;) patch_begins_[k] = std::min(patch_begins_[k], patch_begins_[k + 1]);
-    patch_thresholds_.resize(size_t(direction_cells) * direction_cells * mesh_patches);
+    patches_ = std::make_unique<MeshPatches>();
+    uint32_t* const begins = patches_->begins;
+    std::fill_n(begins, mesh_patches + 1, uint32_t(leaf_count));
+    for (size_t leaf = leaf_count; leaf-- > 0;) begins[thresholds_[leaf] >> (32 - patch_bits)] = uint32_t(leaf);
+    for (size_t k = mesh_patches; k-- > 0;) begins[k] = std::min(begins[k], begins[k + 1]);
     workers.for_each(
         int64_t(direction_cells) * direction_cells, [] { return true; },
         [&](int64_t cell, unsigned) {
             const Vec3 towards = to_float(cell_direction(int(cell)));
             std::vector<double> given(mesh_patches, 0.0);
             for (size_t k = 0; k < size_t(mesh_patches); ++k)
-                for (uint32_t leaf = patch_begins_[k]; leaf < patch_begins_[k + 1]; ++leaf) {
+                for (uint32_t leaf = begins[k]; leaf < begins[k + 1]; ++leaf) {
                     const LightBounds& triangle = triangles[size_t(shape_.items[leaf])];
                     const float cosine = dot(triangle.axis, towards);
                     given[k] += powers[leaf] * double(seen_share(triangle.two_sided ? std::abs(cosine) : cosine));
                 }
-            const std::vector<uint32_t> thresholds = make_thresholds(given);
-            std::ranges::copy(thresholds, patch_thresholds_.begin() + cell * mesh_patches);
+            std::ranges::copy(make_thresholds(given), patches_->thresholds[cell]);
         });
 }
 
 size_t MeshTree::memory_bytes() const {
-    return sizeof *this + shape_.nodes.capacity() * sizeof(LightTreeNode) +
-           4 * (shape_.items.capacity() + shape_.trails.capacity() + thresholds_.capacity() + leaves_.capacity() +
-                patch_thresholds_.capacity() + patch_begins_.capacity());
+    return sizeof *this + shape_.nodes.capacity() * sizeof(LightTreeNode) + (patches_ ? sizeof(MeshPatches) : 0) +
+           4 * (shape_.items.capacity() + shape_.trails.capacity() + thresholds_.capacity() + leaves_.capacity() + guide_.capacity());
+}
+
+int32_t LightTreeTable::add_mesh(const std::shared_ptr<const MeshTree>& mesh) {
+    meshes.push_back(mesh);
+    mesh_tables.push_back(mesh->tables());
+    return int32_t(meshes.size()) - 1;
 }
 
 void LightTreeTable::find_root_lights() {
@@ -364,12 +369,19 @@ void LightTreeTable::find_root_lights() {
     if (nodes.empty()) return;
     for (const int32_t child : nodes[0].child) {
         if (child == 0) break;
-        root_lights.push_back(child < 0 && !entries[size_t(~child)].mesh ? entries[size_t(~child)].light : -1);
+        root_lights.push_back(child < 0 && entries[size_t(~child)].mesh < 0 ? entries[size_t(~child)].light : -1);
     }
 }
 
 LightTree LightTreeTable::tables() const {
-    return {nodes.data(), entries.data(), root_lights.data(), distant.data(), int32_t(root_lights.size()), int32_t(distant.size()), {}};
+    return {nodes.data(),
+            entries.data(),
+            mesh_tables.data(),
+            root_lights.data(),
+            distant.data(),
+            int32_t(root_lights.size()),
+            int32_t(distant.size()),
+            {}};
 }
 
 size_t LightTreeTable::memory_bytes() const {

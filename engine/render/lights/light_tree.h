@@ -59,8 +59,8 @@ private:
 
     LightTreeShape shape_;
     std::vector<uint32_t> thresholds_;
-    std::vector<int32_t> leaves_;
-    std::vector<uint32_t> patch_thresholds_, patch_begins_;
+    std::vector<int32_t> leaves_, guide_;
+    std::unique_ptr<MeshPatches> patches_; // null: none
     LightBounds bounds_;
     MeshLightTree tables_{};
 };
@@ -70,10 +70,13 @@ struct LightTreeTable {
     std::vector<LightTreeNode> nodes; // a negative child is ~index of its entry
     std::vector<LightTreeEntry> entries;
     std::vector<std::shared_ptr<const MeshTree>> meshes; // of the entries
+    std::vector<MeshLightTree> mesh_tables;              // theirs
     std::vector<int32_t> root_lights;                    // by child of the root: its light; -1: a node or a mesh
     std::vector<DistantLight> distant;                   // at most max_distant_lights
 
     bool empty() const { return nodes.empty() && distant.empty(); }
+    // Adds a mesh for an entry; its index.
+    int32_t add_mesh(const std::shared_ptr<const MeshTree>& mesh);
     // Fills root_lights.
     void find_root_lights();
     // Valid until the table changes.
@@ -86,7 +89,7 @@ struct LightTreeTable {
 constexpr double uniform_share = 1.0 / 64;
 // Meshes with fewer emissive triangles have no tree of their own: their triangles are leaves of the scene's tree.
 constexpr int64_t min_triangles_for_a_tree = 32;
-// Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB.
-constexpr int64_t min_triangles_for_patches = 1024;
+// Meshes with fewer emissive triangles have no table for distant receivers, which takes 64 KiB: at most 256 bytes a triangle.
+constexpr int64_t min_triangles_for_patches = 256;
 
 } // namespace blush

@@ -171,8 +171,9 @@ TEST_P(MeshLightTree, NeverSelectsTrianglesWithoutArea) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, MeshLightTree,
-                         testing::Values(MeshCase{"Small", 200, 1, false}, MeshCase{"Sphere", 3000, 1, false},
-                                         MeshCase{"Cloud", 3000, 0, false}, MeshCase{"TwoSidedCloud", 3000, 0, true}),
+                         testing::Values(MeshCase{"Small", 200, 1, false}, MeshCase{"SmallWithPatches", 600, 1, false},
+                                         MeshCase{"Sphere", 3000, 1, false}, MeshCase{"Cloud", 3000, 0, false},
+                                         MeshCase{"TwoSidedCloud", 3000, 0, true}),
                          [](const auto& mesh) { return mesh.param.name; });
 
 // Where a mesh fills the view, all lights together have probability 1: nothing is lost on the way.
@@ -183,6 +184,17 @@ TEST(MeshLightTrees, ProbabilitiesAddUpToOneWhereEverythingIsLit) {
         for (int64_t i = 0; i < compiled.count(); ++i) sum += double(probability(compiled.lights(), {{distance, 0, 0}, {0, 0, 0}}, i));
         EXPECT_NEAR(sum, 1, 1e-5) << distance;
     }
+}
+
+// The table by direction takes 64 KiB, so small meshes do without.
+TEST(MeshLightTrees, HaveATableForDistantReceiversFrom256TrianglesOn) {
+    const auto has_table = [](int count) {
+        const Compiled compiled(glowing(count, 1));
+        const LightTree& tree = compiled.lights().tree;
+        return tree.meshes[tree.entries[~compiled.lights().lights[0].slot].mesh].has_patches != 0;
+    };
+    EXPECT_FALSE(has_table(250));
+    EXPECT_TRUE(has_table(400));
 }
 
 // A ball sends no light to its own surface. Bounded by its box alone it would seem to: the box's corners are above the horizon.
@@ -237,7 +249,8 @@ TEST(MeshLightTrees, DoNotDependOnTheNumberOfThreads) {
 }
 
 const void* tree_of(const Compiled& compiled, int64_t light) {
-    return compiled.lights().tree.entries[~compiled.lights().lights[light].slot].mesh;
+    const LightTree& tree = compiled.lights().tree;
+    return tree.meshes[tree.entries[~compiled.lights().lights[light].slot].mesh].nodes;
 }
 
 // Edits of the emission keep the tree of the mesh, a move does not; the selection is that of a fresh start.
