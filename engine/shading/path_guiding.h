@@ -131,7 +131,8 @@ DirectionGuide<F> direction_guide_at(const GuideTables& tables, const Vec<F>& fr
         guide.root = select(guide.learned, root, Int<F>(0));
         guide.share = select(guide.learned, gather(tables.learned.guided, cell), F(0.f));
     }
-    if (tables.casters.count > 0) guide.casters = caustic_guide_at<F>(tables.casters, from, normal, lambertian && !guide.learned);
+    const Mask<F> by_casters = lambertian && !guide.learned;
+    if (tables.casters.count > 0 && any(by_casters)) guide.casters = caustic_guide_at<F>(tables.casters, from, normal, by_casters);
     guide.share = select(guide.learned, guide.share, guide.casters.share);
     return guide;
 }
@@ -139,7 +140,7 @@ DirectionGuide<F> direction_guide_at(const GuideTables& tables, const Vec<F>& fr
 // Mixture pdf of a unit direction, where the BSDF alone has `pdf`.
 template <class F> F guided_pdf(const GuideTables& tables, const DirectionGuide<F>& guide, const Vec<F>& direction, const F& pdf) {
     F result = pdf;
-    if (tables.casters.count > 0) result = caster_pdf<F>(tables.casters, guide.casters, direction, pdf);
+    if (any(guide.casters.share > F(0.f))) result = caster_pdf<F>(tables.casters, guide.casters, direction, pdf);
     if (!any(guide.learned)) return result;
     const F learned = learned_density<F>(tables.learned, guide.root, direction, guide.learned) * (0.25f * inv_pi);
     return select(guide.learned, (1.f - guide.share) * pdf + guide.share * learned, result);
@@ -149,7 +150,7 @@ template <class F> F guided_pdf(const GuideTables& tables, const DirectionGuide<
 template <class F>
 Vec<F> sample_guided_direction(const GuideTables& tables, const DirectionGuide<F>& guide, const F& choice, const F& u, const F& v) {
     Vec<F> to{F(0.f), F(0.f), F(1.f)};
-    if (tables.casters.count > 0) to = sample_caster_direction<F>(tables.casters, guide.casters, choice, u, v);
+    if (any(guide.casters.share > F(0.f))) to = sample_caster_direction<F>(tables.casters, guide.casters, choice, u, v);
     if (!any(guide.learned)) return to;
     return select<F>(guide.learned, sample_learned_direction<F>(tables.learned, guide.root, u, v, guide.learned), to);
 }

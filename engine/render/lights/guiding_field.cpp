@@ -10,17 +10,18 @@
 namespace blush {
 namespace {
 
-constexpr size_t enough_photons = 128;                         // of a region; else a larger one is taken,
-constexpr size_t min_photons = 16;                             // and so many of the largest
-constexpr size_t enough_in_node = 12;                          // of a node that is split
-constexpr double even_share = 0.02;                            // of a node's samples, spread over its quadrants
-constexpr double caustic_weight = 2;                           // k
-constexpr double min_guided = 1.0 / 32;                        // share of samples
-constexpr double dropped_estimates = 0.02;                     // of a region's largest: the caustic itself
-constexpr size_t measured_photons = 64;                        // of a region, at most
-constexpr std::array<int, 4> sides_in_cells{192, 128, 96, 64}; // along the longest side of the grid,
-constexpr int32_t max_cells = 64 * 64 * 64;                    // for so many in all
-constexpr std::array<int32_t, 4> region_sides{1, 2, 4, 8};     // in cells
+constexpr size_t enough_photons = 128;                 // of a region; else a larger one is taken,
+constexpr size_t min_photons = 16;                     // and so many of the largest
+constexpr size_t enough_in_node = 12;                  // of a node that is split
+constexpr double even_share = 0.02;                    // of a node's samples, spread over its quadrants
+constexpr double caustic_weight = 4;                   // k
+constexpr double min_guided = 1.0 / 32;                // share of samples
+constexpr double dropped_estimates = 0.02;             // of a region's largest: the caustic itself
+constexpr size_t measured_photons = 64;                // of a region, at most
+constexpr int coarse_side = 64;                        // cells along the longest side of the grid; or one of
+constexpr std::array<int, 3> fine_sides{192, 128, 96}; // these, if it then has no more than
+constexpr double max_cells = 1.0 * coarse_side * coarse_side * coarse_side;
+constexpr std::array<int32_t, 4> region_sides{1, 2, 4, 8}; // in cells
 
 // A photon on the unit square of directions.
 struct GuidingPoint {
@@ -35,6 +36,16 @@ bool is_usable(const GuidingTrial& t) {
            dot(t.normal, t.normal) > 0;
 }
 bool has_flux(const GuidingTrial& t) { return is_usable(t) && t.value > 0; }
+
+ReceiverGrid make_grid(const std::vector<Vec3>& positions) {
+    const ReceiverGrid coarse = make_receiver_grid(positions, coarse_side);
+    for (const int side : fine_sides) {
+        double cells = 1;
+        for (const int32_t along : coarse.cells) cells *= along > 1 ? double(along) * side / coarse_side : 1; // a floor stays one cell high
+        if (cells <= max_cells) return make_receiver_grid(positions, side);
+    }
+    return coarse;
+}
 
 // A quadtree as in GuidingTables, with node numbers from 0.
 struct GuidingQuadtree {
@@ -179,8 +190,7 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     std::vector<Vec3> positions;
     for (const GuidingTrial& t : photons)
         if (has_flux(t)) positions.push_back(t.position);
-    for (const int side : sides_in_cells)
-        if (grid_ = make_receiver_grid(positions, side); grid_.count() <= max_cells) break;
+    grid_ = make_grid(positions);
     if (grid_.cells_per_metre == 0) return;
     const ByCell<GuidingPoint> by_cell(photons, grid_, has_flux, [](const GuidingTrial& t) {
         const Vec2T<float> at = guiding_point<float>(t.direction);

@@ -59,7 +59,7 @@ TEST(GuidingField, SendsSamplesTowardsTheLight) {
 
 // Flux of 20,000 photons of 1 among 100,000 on 8 m2 is an irradiance of 0.025.
 TEST(GuidingField, ShareFollowsTheIrradiance) {
-    for (const float irradiance : {0.05f, 0.5f}) {
+    for (const float irradiance : {0.2f, 1.f}) {
         const GuidingField field = learned(trials(1, 1, irradiance));
         const GuidingTables t = field.tables();
         double sum = 0;
@@ -67,7 +67,7 @@ TEST(GuidingField, ShareFollowsTheIrradiance) {
         for (float x = -1.9f; x < -0.2f; x += 0.1f)
             for (float z = -1.9f; z < 1.9f; z += 0.1f, ++cells) sum += double(t.guided[cell_at(t, {x, 0, z})]);
         // The root of the second moment of values that are uniform in [0, 2 E), without the largest of them, is about 1.13 E.
-        const double weighted = 2 * 0.025, expected = weighted / (weighted + 1.13 * double(irradiance));
+        const double weighted = 4 * 0.025, expected = weighted / (weighted + 1.13 * double(irradiance));
         EXPECT_NEAR(sum / cells, expected, 0.15 * expected) << irradiance;
         EXPECT_LT(t.guided[cell_at(t, {1, 0, 0})], 0.04f) << "no caustic there";
     }
