@@ -167,6 +167,49 @@ struct Region {
     }
 };
 
+// A cell's region is the smallest with enough photons.
+struct Regions {
+    std::vector<Region> all;
+    std::vector<int32_t> of_cell; // and side; -1: none
+
+    Regions(const ByCell<GuidingPoint>& photons, const ReceiverGrid& grid) : of_cell(photons.begins.size() - 1, -1) {
+        const size_t cells = of_cell.size();
+        std::array<std::vector<size_t>, region_sides.size()> photons_of; // by size, block and side
+        std::array<std::vector<int32_t>, region_sides.size()> region_of;
+        const auto block_of = [&](size_t size, size_t cell) {
+            const CellBlocks blocks{grid, region_sides[size]};
+            return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
+        };
+        for (size_t size = 0; size < region_sides.size(); ++size) {
+            cells_of_[size].resize(size_t(CellBlocks{grid, region_sides[size]}.count()) * guiding_sides);
+            photons_of[size].resize(cells_of_[size].size());
+            region_of[size].assign(cells_of_[size].size(), -1);
+            for (size_t k = 0; k < cells; ++k)
+                if (const size_t count = photons.of(k).size(); count > 0) {
+                    const size_t block = block_of(size, k);
+                    cells_of_[size][block].push_back(k);
+                    photons_of[size][block] += count;
+                }
+        }
+        for (size_t k = 0; k < cells; ++k)
+            for (size_t size = 0; size < region_sides.size(); ++size) {
+                const size_t block = block_of(size, k);
+                if (photons_of[size][block] < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
+                if (region_of[size][block] < 0) {
+                    region_of[size][block] = int32_t(all.size());
+                    all.push_back({.cells = &cells_of_[size][block], .side = region_sides[size]});
+                }
+                of_cell[k] = region_of[size][block];
+                break;
+            }
+    }
+    Regions(const Regions&) = delete;
+    Regions& operator=(const Regions&) = delete;
+
+private:
+    std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of_; // by size, block and side: those with photons
+};
+
 // Over the regions, weighted by their vertices of paths.
 std::optional<PilotFigures> figures_of(const std::vector<Region>& regions) {
     double with = 0, without = 0, relative_with = 0, relative_without = 0, log_ratios = 0, paths = 0;
@@ -198,43 +241,10 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     });
     const ByCell<double> found(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
 
-    // A cell's region is the smallest with enough photons.
-    const size_t cells = by_cell.begins.size() - 1;
-    std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of; // by size, block and side
-    std::array<std::vector<size_t>, region_sides.size()> photons_of;
-    std::array<std::vector<int32_t>, region_sides.size()> region_of;
-    const auto block_of = [&](size_t size, size_t cell) {
-        const CellBlocks blocks{grid_, region_sides[size]};
-        return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
-    };
-    for (size_t size = 0; size < region_sides.size(); ++size) {
-        cells_of[size].resize(size_t(CellBlocks{grid_, region_sides[size]}.count()) * guiding_sides);
-        photons_of[size].resize(cells_of[size].size());
-        region_of[size].assign(cells_of[size].size(), -1);
-        for (size_t k = 0; k < cells; ++k)
-            if (const size_t count = by_cell.of(k).size(); count > 0) {
-                const size_t block = block_of(size, k);
-                cells_of[size][block].push_back(k);
-                photons_of[size][block] += count;
-            }
-    }
-    std::vector<Region> regions;
-    std::vector<int32_t> of_cell(cells, -1);
-    for (size_t k = 0; k < cells; ++k) {
-        for (size_t size = 0; size < region_sides.size(); ++size) {
-            const size_t block = block_of(size, k);
-            if (photons_of[size][block] < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
-            if (region_of[size][block] < 0) {
-                region_of[size][block] = int32_t(regions.size());
-                regions.push_back({.cells = &cells_of[size][block], .side = region_sides[size]});
-            }
-            of_cell[k] = region_of[size][block];
-            break;
-        }
-    }
+    Regions regions(by_cell, grid_);
     const double cell_area = 1 / (double(grid_.cells_per_metre) * double(grid_.cells_per_metre));
-    workers.for_each(int64_t(regions.size()), {}, [&](int64_t i, unsigned) {
-        Region& region = regions[size_t(i)];
+    workers.for_each(int64_t(regions.all.size()), {}, [&](int64_t i, unsigned) {
+        Region& region = regions.all[size_t(i)];
         std::vector<GuidingPoint> points = by_cell.of_all(*region.cells);
         double flux = 0;
         for (const GuidingPoint& p : points) flux += p.flux;
@@ -248,22 +258,22 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         region.compare(points, caustic, other, casters);
         region.tree.build(points);
     });
-    figures_ = figures_of(regions);
+    figures_ = figures_of(regions.all);
 
     std::vector<int32_t> root_of;
-    for (const Region& region : regions) {
+    for (const Region& region : regions.all) {
         const auto first = int32_t(nodes_.size() / 4);
         root_of.push_back(first);
         for (const int32_t node : region.tree.nodes) nodes_.push_back(node < 0 ? -1 : node + first);
         shares_.insert(shares_.end(), region.tree.shares.begin(), region.tree.shares.end());
     }
-    if (regions.empty()) return;
-    roots_.assign(cells, -1);
-    guided_.assign(cells, 0);
-    for (size_t k = 0; k < cells; ++k) {
-        if (of_cell[k] < 0) continue;
-        roots_[k] = root_of[size_t(of_cell[k])];
-        guided_[k] = float(regions[size_t(of_cell[k])].guided);
+    if (regions.all.empty()) return;
+    roots_.assign(regions.of_cell.size(), -1);
+    guided_.assign(regions.of_cell.size(), 0);
+    for (size_t k = 0; k < roots_.size(); ++k) {
+        if (regions.of_cell[k] < 0) continue;
+        roots_[k] = root_of[size_t(regions.of_cell[k])];
+        guided_[k] = float(regions.all[size_t(regions.of_cell[k])].guided);
     }
 }
 
