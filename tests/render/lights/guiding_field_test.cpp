@@ -57,6 +57,26 @@ TEST(GuidingField, SendsSamplesTowardsTheLight) {
     EXPECT_GT(towards, samples * 0.8);
 }
 
+TEST(GuidingField, ProbabilitiesFollowTheFlux) {
+    RandomNumbers random(8);
+    Trials all;
+    for (int i = 0; i < 40'000; ++i) {
+        const bool right = i % 2 == 0;
+        const Vec3 d = normalize(Vec3{right ? 1.f : -1.f, 1, 0} + random.direction() * 0.2f);
+        all.photons.push_back({{random(-2, 2), 0, random(-2, 2)}, {0, 1, 0}, d, right ? 3.f : 1.f});
+    }
+    const GuidingField field = learned(all);
+    const GuidingTables t = field.tables();
+    ASSERT_TRUE(t.roots);
+    int right = 0;
+    constexpr int samples = 40'000;
+    for (int i = 0; i < samples; ++i) {
+        const int32_t root = t.roots[cell_at(t, {random(-1.9f, 1.9f), 0, random(-1.9f, 1.9f)})];
+        right += sample_learned_direction<float>(t, root, random(), random(), true).x > 0;
+    }
+    EXPECT_NEAR(double(right) / samples, 0.75, 0.02); // 0.02 of each node is spread evenly
+}
+
 // Flux of 20,000 photons of 1 among 100,000 on 8 m2 is an irradiance of 0.025.
 TEST(GuidingField, ShareFollowsTheIrradiance) {
     for (const float irradiance : {0.2f, 1.f}) {
