@@ -16,6 +16,7 @@ namespace blush {
 struct PortalPilot {
     LearnedPortals portals;
     std::optional<PilotFigures> figures; // with over without them; empty: too few cells have a portal
+    bool operator==(const PortalPilot&) const = default;
 };
 
 // Renders some tiles, spread over the film (pilot_tiles.h): once to learn, then with and without what was learned. Its seeds differ from

@@ -1,9 +1,6 @@
 // The pilot of path guiding: where it pays, that it does not depend on how the image is rendered, and that it adds no bias.
 #include "render/pilots/guiding_pilot.h"
 
-#include "render/compile/expand_area_lights.h"
-#include "render/compile/render_scene.h"
-#include "render/integrator/kernel_settings.h"
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
@@ -133,23 +130,7 @@ TEST(GuidingPilot, ReducesTheError) {
 }
 
 TEST(GuidingPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
-    const Scene scene = balls_under_lamp();
-    const RenderSettings settings = settings_of(4);
-    RenderScene compiled;
-    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(2));
-    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
-    const auto learn = [&](const Kernel& kernel, unsigned threads) {
-        const Workers workers(threads);
-        std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-        return *learn_path_guiding(context, kernel, workers, scratch, {});
-    };
-    const GuidingField expected = learn(kernels_of("scalar").back(), 1);
-    ASSERT_TRUE(expected.figures());
-    for (const std::string_view isa : runnable_isas()) {
-        const auto kernels = kernels_of(isa);
-        const auto smallest = std::ranges::find_if(kernels, [&](const Kernel& k) { return k.features.contains(compiled.features()); });
-        for (const unsigned threads : {1u, 3u}) EXPECT_EQ(learn(*smallest, threads), expected) << isa << " " << threads;
-    }
+    EXPECT_TRUE(learned_by_every_kernel(balls_under_lamp(), settings_of(4), learn_path_guiding).figures());
 }
 
 // What is gained is so much that the first sample is rendered again when a second one follows.

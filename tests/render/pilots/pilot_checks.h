@@ -1,15 +1,21 @@
 // What the tests of the pilots share: the line of the feature report that a pilot decides, and images in several ranges of samples.
 #pragma once
 
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "render/integrator/kernel_settings.h"
+#include "render/kernels/kernel.h"
 #include "render/renderer.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blush::test {
 
@@ -34,6 +40,25 @@ inline Frame rendered_in_parts(const Scene& scene, const RenderSettings& setting
     renderer.update(scene, settings);
     for (const auto& [first, count] : parts) EXPECT_TRUE(renderer.render(first, count));
     return renderer.resolve();
+}
+
+// What the pilot learns, which is the same for every instruction set and number of threads.
+template <class Pilot> auto learned_by_every_kernel(const Scene& scene, const RenderSettings& settings, const Pilot& pilot) {
+    RenderScene compiled;
+    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(2));
+    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
+    const auto learn = [&](const Kernel& kernel, unsigned threads) {
+        const Workers workers(threads);
+        std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
+        return *pilot(context, kernel, workers, scratch, {});
+    };
+    auto expected = learn(kernels_of("scalar").back(), 1);
+    for (const std::string_view isa : runnable_isas()) {
+        const auto kernels = kernels_of(isa);
+        const auto smallest = std::ranges::find_if(kernels, [&](const Kernel& k) { return k.features.contains(compiled.features()); });
+        for (const unsigned threads : {1u, 3u}) EXPECT_EQ(learn(*smallest, threads), expected) << isa << " " << threads;
+    }
+    return expected;
 }
 
 // The log of a path selects the lights that the image selects.

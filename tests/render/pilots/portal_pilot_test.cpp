@@ -1,9 +1,6 @@
 // The pilot of learned portals: what it gains, that it does not depend on how the image is rendered, and that it adds no bias.
 #include "render/pilots/portal_pilot.h"
 
-#include "render/compile/expand_area_lights.h"
-#include "render/compile/render_scene.h"
-#include "render/integrator/kernel_settings.h"
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
@@ -127,27 +124,7 @@ TEST(PortalPilot, ReducesTheVariance) {
 }
 
 TEST(PortalPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
-    const Scene scene = mapped_window_room();
-    const RenderSettings settings = settings_of(4);
-    RenderScene compiled;
-    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(2));
-    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
-    const auto learn = [&](const Kernel& kernel, unsigned threads) {
-        const Workers workers(threads);
-        std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-        return *learn_portals(context, kernel, workers, scratch, {});
-    };
-    const PortalPilot expected = learn(kernels_of("scalar").back(), 1);
-    ASSERT_TRUE(expected.figures);
-    for (const std::string_view isa : runnable_isas()) {
-        const auto kernels = kernels_of(isa);
-        const auto smallest = std::ranges::find_if(kernels, [&](const Kernel& k) { return k.features.contains(compiled.features()); });
-        for (const unsigned threads : {1u, 3u}) {
-            const PortalPilot pilot = learn(*smallest, threads);
-            EXPECT_EQ(pilot.portals, expected.portals) << isa << " " << threads;
-            EXPECT_EQ(pilot.figures, expected.figures) << isa << " " << threads;
-        }
-    }
+    EXPECT_TRUE(learned_by_every_kernel(mapped_window_room(), settings_of(4), learn_portals).figures);
 }
 
 TEST(PortalPilot, DecidesOverAllSamplesButTheFirst) {

@@ -1,10 +1,7 @@
 // The pilot of learned visibility: what it gains, that it does not depend on how the image is rendered, and that it adds no bias.
 #include "render/pilots/visibility_pilot.h"
 
-#include "render/compile/expand_area_lights.h"
-#include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
-#include "render/integrator/kernel_settings.h"
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
@@ -105,23 +102,7 @@ TEST(VisibilityPilot, AgreesWithBsdfSampling) {
 }
 
 TEST(VisibilityPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
-    const Scene scene = shuttered_room();
-    const RenderSettings settings = settings_of(4);
-    RenderScene compiled;
-    compiled.update(expand_area_lights(scene), settings, full_plan(), Workers(2));
-    const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
-    const auto learn = [&](const Kernel& kernel, unsigned threads) {
-        const Workers workers(threads);
-        std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-        return *learn_light_visibility(context, kernel, workers, scratch, {});
-    };
-    const LightVisibility expected = learn(kernels_of("scalar").back(), 1);
-    EXPECT_LT(expected.second_moment(), 0.9);
-    for (const std::string_view isa : runnable_isas()) {
-        const auto kernels = kernels_of(isa);
-        const auto smallest = std::ranges::find_if(kernels, [&](const Kernel& k) { return k.features.contains(compiled.features()); });
-        for (const unsigned threads : {1u, 3u}) EXPECT_EQ(learn(*smallest, threads), expected) << isa << " " << threads;
-    }
+    EXPECT_LT(learned_by_every_kernel(shuttered_room(), settings_of(4), learn_light_visibility).second_moment(), 0.9);
 }
 
 TEST(VisibilityPilot, DecidesOverAllSamplesButTheFirst) {
