@@ -72,8 +72,7 @@ struct Renderer::State {
     int film_height() const { return std::max(1, settings.height / divider); }
     // Without its seed. `tables` of the scene.
     KernelContext context_for(const SceneTables& tables, int width, int height) const;
-    // With what the pilots have learned, for a sample of this index at full resolution.
-    // Whose decisions of the pilots a sample of this index follows.
+    // A sample of this index follows the decisions of the pilots for the sample of the returned index; 0: none.
     int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
     int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(decided_as(sample)) : reuse.first_group_size(); }
 
@@ -142,7 +141,7 @@ struct Renderer::State {
     PixelRect rendered_pixels() const;
     // Null without a shadow catcher or if stopped. The bool functions below return false if stopped before the end.
     const CatcherColumns* shadows_of(const KernelContext& context, const TileJob& job, unsigned worker);
-    bool render_run(TileJob rectangle, const Run& run, int most_samples, unsigned worker, const Wanted& wanted);
+    bool render_run(TileJob rectangle, const Run& run, int max_samples, unsigned worker, const Wanted& wanted);
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);

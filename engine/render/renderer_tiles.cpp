@@ -20,7 +20,7 @@ KernelContext Renderer::State::context_for(const SceneTables& tables, int width,
     return context;
 }
 
-bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, unsigned worker, const Wanted& wanted) {
+bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, unsigned worker, const Wanted& wanted) {
     const SceneTables tables = learned.tables(scene.tables(), decided_as(run.first));
     KernelContext context = context_for(tables, film.width(), film.height());
     context.seed = settings.seed;
@@ -35,7 +35,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int most_samples, 
     for (int64_t done = 0; done < run.count; done += job.samples) {
         if (done > 0 && wanted && !wanted()) return false;
         job.first_sample = run.first + done * run.stride;
-        job.samples = int(std::min<int64_t>(most_samples, run.count - done));
+        job.samples = int(std::min<int64_t>(max_samples, run.count - done));
         kernel->render(context, job, tile);
         if (pixels) refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
         StageTimer timer(tile.stages);

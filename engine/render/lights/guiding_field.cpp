@@ -10,14 +10,14 @@
 namespace blush {
 namespace {
 
-constexpr size_t enough_photons = 128;                 // of a region; else a larger one is taken,
-constexpr size_t min_photons = 16;                     // and so many of the largest
-constexpr size_t enough_in_node = 12;                  // of a node that is split
+constexpr size_t min_photons = 128;                    // of a region; else a larger one is taken,
+constexpr size_t min_photons_of_largest = 16;          // and so many of the largest
+constexpr size_t min_photons_to_split = 12;            // of a node that is split
 constexpr double even_share = 0.02;                    // of a node's samples, spread over its quadrants
 constexpr double caustic_weight = 4;                   // k
 constexpr double min_guided = 1.0 / 32;                // share of samples
 constexpr double dropped_estimates = 0.02;             // of a region's largest: the caustic itself
-constexpr size_t measured_photons = 64;                // of a region, at most
+constexpr size_t max_measured_photons = 64;            // of a region, at most
 constexpr int coarse_side = 64;                        // cells along the longest side of the grid; or one of
 constexpr std::array<int, 3> fine_sides{192, 128, 96}; // these, if it then has no more than
 constexpr double max_cells = 1.0 * coarse_side * coarse_side * coarse_side;
@@ -54,7 +54,7 @@ struct GuidingQuadtree {
 
     // The number of the node, -1: a leaf.
     int32_t build(GuidingPoints points, int level = 0) {
-        if (level == guiding_levels || (level > 0 && points.size() < enough_in_node)) return -1;
+        if (level == guiding_levels || (level > 0 && points.size() < min_photons_to_split)) return -1;
         const size_t node = nodes.size() / 4;
         nodes.resize(nodes.size() + 4);
         shares.resize(shares.size() + 4);
@@ -129,7 +129,7 @@ double surface_cells(double photons, double occupied, int32_t side) {
     return std::max(cells, occupied);
 }
 
-struct Region {
+struct GuidingRegion {
     const std::vector<size_t>* cells; // with photons
     int32_t side;                     // of the cube, in cells
     GuidingQuadtree tree;
@@ -146,7 +146,7 @@ struct Region {
         const int32_t root = 0;
         const GuidingTables own{&root, nullptr, of_half.shares.data(), of_half.nodes.data(), {}};
         double weight = 0, moment_with = 0, moment_without = 0, cast = 0;
-        const size_t step = points.size() / measured_photons + 1;
+        const size_t step = points.size() / max_measured_photons + 1;
         for (size_t k = 0; k < points.size(); k += step) {
             const GuidingTrial& photon = *points[k].photon;
             const float cosine = cosine_hemisphere_pdf(dot(photon.normal, photon.direction));
@@ -168,11 +168,11 @@ struct Region {
 };
 
 // A cell's region is the smallest with enough photons.
-struct Regions {
-    std::vector<Region> all;
+struct GuidingRegions {
+    std::vector<GuidingRegion> all;
     std::vector<int32_t> of_cell; // and side; -1: none
 
-    Regions(const ByCell<GuidingPoint>& photons, const ReceiverGrid& grid) : of_cell(photons.begins.size() - 1, -1) {
+    GuidingRegions(const ByCell<GuidingPoint>& photons, const ReceiverGrid& grid) : of_cell(photons.begins.size() - 1, -1) {
         const size_t cells = of_cell.size();
         std::array<std::vector<size_t>, region_sides.size()> photons_of; // by size, block and side
         std::array<std::vector<int32_t>, region_sides.size()> region_of;
@@ -194,7 +194,7 @@ struct Regions {
         for (size_t k = 0; k < cells; ++k)
             for (size_t size = 0; size < region_sides.size(); ++size) {
                 const size_t block = block_of(size, k);
-                if (photons_of[size][block] < (size + 1 < region_sides.size() ? enough_photons : min_photons)) continue;
+                if (photons_of[size][block] < (size + 1 < region_sides.size() ? min_photons : min_photons_of_largest)) continue;
                 if (region_of[size][block] < 0) {
                     region_of[size][block] = int32_t(all.size());
                     all.push_back({.cells = &cells_of_[size][block], .side = region_sides[size]});
@@ -203,17 +203,17 @@ struct Regions {
                 break;
             }
     }
-    Regions(const Regions&) = delete;
-    Regions& operator=(const Regions&) = delete;
+    GuidingRegions(const GuidingRegions&) = delete;
+    GuidingRegions& operator=(const GuidingRegions&) = delete;
 
 private:
     std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of_; // by size, block and side: those with photons
 };
 
 // Over the regions, weighted by their vertices of paths.
-std::optional<PilotFigures> figures_of(const std::vector<Region>& regions) {
+std::optional<PilotFigures> figures_of(const std::vector<GuidingRegion>& regions) {
     double with = 0, without = 0, relative_with = 0, relative_without = 0, log_ratios = 0, paths = 0;
-    for (const Region& r : regions) {
+    for (const GuidingRegion& r : regions) {
         if (!(r.paths > 0 && r.with > 0 && r.without > 0)) continue;
         paths += r.paths;
         with += r.paths * r.with;
@@ -241,10 +241,10 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     });
     const ByCell<double> found(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
 
-    Regions regions(by_cell, grid_);
+    GuidingRegions regions(by_cell, grid_);
     const double cell_area = 1 / (double(grid_.cells_per_metre) * double(grid_.cells_per_metre));
     workers.for_each(int64_t(regions.all.size()), {}, [&](int64_t i, unsigned) {
-        Region& region = regions.all[size_t(i)];
+        GuidingRegion& region = regions.all[size_t(i)];
         std::vector<GuidingPoint> points = by_cell.of_all(*region.cells);
         double flux = 0;
         for (const GuidingPoint& p : points) flux += p.flux;
@@ -261,7 +261,7 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
     figures_ = figures_of(regions.all);
 
     std::vector<int32_t> root_of;
-    for (const Region& region : regions.all) {
+    for (const GuidingRegion& region : regions.all) {
         const auto first = int32_t(nodes_.size() / 4);
         root_of.push_back(first);
         for (const int32_t node : region.tree.nodes) nodes_.push_back(node < 0 ? -1 : node + first);

@@ -12,8 +12,8 @@ namespace blush {
 namespace {
 
 constexpr int portal_block = 2;           // cells along a block
-constexpr int least_trials = 32;          // of a cell with a portal,
-constexpr double least_escapes = 4;       // and of its block: escaped rays
+constexpr int min_trials = 32;            // of a cell with a portal,
+constexpr double min_escapes = 4;         // and of its block: escaped rays
 constexpr double prior_escapes = 8;       // weight of the block's distribution in that of its cell
 constexpr double neighbour_weight = 0.25; // of each of four bins beside a bin
 constexpr int directions_along_bin = 8;   // that the mean radiance of a bin is taken over, squared
@@ -107,7 +107,7 @@ LearnedPortals::LearnedPortals(std::span<const EscapeTrial> trials, const Enviro
     for (int cell = 0; cell < grid.count(); ++cell) {
         const Region &own = of_cell[size_t(cell)], &around = of_block[size_t(blocks.of(cell))];
         const double escaped = sum_of(own.escaped), escaped_around = sum_of(around.escaped);
-        if (own.tried < least_trials || escaped_around < least_escapes) continue;
+        if (own.tried < min_trials || escaped_around < min_escapes) continue;
         if (escaped > largest_escaping_share * double(own.tried)) continue;
         Bins share{};
         for (size_t i = 0; i < share.size(); ++i) share[i] = own.escaped[i] + prior_escapes * around.escaped[i] / escaped_around;

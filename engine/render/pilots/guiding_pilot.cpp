@@ -14,6 +14,8 @@ namespace {
 constexpr uint32_t photon_seed = 0x9a1d0000, path_seed = 0x9a1d0001;
 // Photons: one for two pixels of the image, in tiles of tile_capacity; at least and at most so many tiles.
 constexpr int64_t pixels_per_photon_tile = tile_capacity / 2, min_photon_tiles = 8, max_photon_tiles = 64;
+constexpr int photon_tile = 64; // photons along a side
+static_assert(photon_tile * photon_tile == tile_capacity);
 constexpr int path_pixels = 1 << 14; // of the image whose paths are measured,
 constexpr int path_samples = 2;      // and samples of a pixel
 constexpr int path_tile = 16;        // pixels along a side
@@ -114,7 +116,7 @@ std::optional<GuidingField> learn_path_guiding(KernelContext context, const Kern
         tile.photons = std::make_unique<PhotonTrials>();
         for (uint32_t k = 0; k < uint32_t(tile_capacity); ++k)
             tile.photons->emitted.push_back(source.emit(uint32_t(i) * uint32_t(tile_capacity) + k));
-        kernel.render(tracing, {.x = int(i) * 64, .y = 0, .width = 64, .height = 64}, tile);
+        kernel.render(tracing, {.x = int(i) * photon_tile, .y = 0, .width = photon_tile, .height = photon_tile}, tile);
         of_tile[i] = std::move(std::exchange(tile.photons, nullptr)->arrived);
     });
     if (!traced) return std::nullopt;

@@ -11,7 +11,7 @@ namespace {
 
 // Any; they only have to differ from each other and from those of images.
 constexpr uint32_t portal_learning_seed = 0x9074a150, portal_measuring_seed = 0x9074a151;
-constexpr double least_reach = 0.02; // share of the rays
+constexpr double min_reach = 0.02; // share of the rays
 
 } // namespace
 
@@ -37,7 +37,7 @@ std::optional<PortalPilot> learn_portals(KernelContext context, const Kernel& ke
     std::vector<EscapeTrial> trials;
     for (const auto& some : of_tile) trials.insert(trials.end(), some.begin(), some.end());
     PortalPilot pilot{LearnedPortals(trials, context.scene->environment, context.scene->lights.count == 0), {}};
-    if (pilot.portals.reach() < least_reach) return pilot;
+    if (pilot.portals.reach() < min_reach) return pilot;
 
     context.seed = portal_measuring_seed;
     SceneTables tables = *context.scene;
