@@ -22,9 +22,10 @@ bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_s
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>(options)) {}
 Renderer::~Renderer() = default;
 
-bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene) {
+Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene) {
     Scene now_expanded = expand_area_lights(whole, &meshes, &workers);
-    const UpdatePlan todo = expanded ? plan(diff(*expanded, settings, now_expanded, now)) : full_plan();
+    const std::optional<Changes> changes = expanded ? std::optional(diff(*expanded, settings, now_expanded, now)) : std::nullopt;
+    const UpdatePlan todo = changes ? plan(*changes) : full_plan();
     groups = std::move(groups_of_scene);
     mixing = groups ? mixing_of(*groups, whole).value() : Mixing{};
     Film::require_memory({now.width, now.height, options.planes, false, now.adaptive, int(mixing.gains.size())});
@@ -33,14 +34,16 @@ bool Renderer::State::compile(const Scene& whole, const RenderSettings& now, Lig
     expanded = std::move(now_expanded);
     settings = now;
     if (todo.features) kernel = &choose_kernel(scene.features());
-    return todo.clear_film;
+    if (!todo.clear_film) return Outdated::nothing;
+    return changes && changes->only_view() ? Outdated::view : Outdated::film;
 }
 
-void Renderer::State::begin_film(Clock::time_point begun) {
+void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     clear();
     reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
-    learned = LearnedSampling(settings, scene);
+    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene));
+    if (outdated != Outdated::film) learned.keep_from(before);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -52,15 +55,15 @@ bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     const auto begun = State::Clock::now();
     if (s.apply_mix(scene, settings)) return false;
     const bool mixed = scene.mix.grouping != LightMix::Grouping::none;
-    const bool outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
-    if (outdated) s.begin_film(begun);
-    return outdated;
+    const auto outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
+    if (outdated != State::Outdated::nothing) s.begin_film(begun, outdated);
+    return outdated != State::Outdated::nothing;
 }
 
 void Renderer::begin_image(const Scene& scene, const RenderSettings& settings, LightGroupsPtr groups) {
     const auto begun = State::Clock::now();
-    state_->compile(scene, effective_settings(settings), std::move(groups));
-    state_->begin_film(begun);
+    const auto outdated = state_->compile(scene, effective_settings(settings), std::move(groups));
+    state_->begin_film(begun, outdated);
 }
 
 void Renderer::set_mix(const Mixing& mixing) { state_->set_mix(mixing); }

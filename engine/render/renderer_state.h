@@ -92,10 +92,11 @@ struct Renderer::State {
         mixing = std::move(mix);
         film.set_gains(mixing.gains);
     }
-    // Updates the compiled scene; true if the film is outdated.
-    bool compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene);
+    enum class Outdated { nothing, view, film };
+    // Updates the compiled scene. View: the film is outdated, and nothing but the view has changed.
+    Outdated compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene);
     // Discards the samples; their setup began at `begun`.
-    void begin_film(Clock::time_point begun);
+    void begin_film(Clock::time_point begun, Outdated outdated);
 
     bool hides_environment() const {
         const Environment& e = expanded->environment;

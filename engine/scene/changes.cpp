@@ -169,6 +169,12 @@ bool Changes::affects_image() const {
            motion || !meshes.empty() || !materials.empty() || !textures.empty() || !lights.empty() || mix;
 }
 
+bool Changes::only_view() const {
+    Changes others = *this;
+    others.view = false;
+    return view && !others.affects_image();
+}
+
 bool Changes::only_light() const {
     return !view && !resolution && !integrator && !environment_image && transforms.empty() && structure.empty() && !motion &&
            meshes.empty() && textures.empty();

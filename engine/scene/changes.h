@@ -29,6 +29,8 @@ struct Changes {
     bool any() const;
     // True if samples accumulated so far do not show the new scene.
     bool affects_image() const;
+    // True if of all that the image shows only the view changed.
+    bool only_view() const;
     // True if only lights, materials, environment parameters and the mix changed: no geometry moved.
     bool only_light() const;
 };

@@ -21,6 +21,12 @@ struct EmittedPhoton {
     float flux = 0; // luminance: nits m2 sr
 };
 
+// Where the photons of a scene arrived after smooth surfaces. Their flux is `emitted` times that of the caustics.
+struct CausticPhotons {
+    std::vector<GuidingTrial> arrived;
+    int64_t emitted = 0;
+};
+
 // The photons of a tile: the kernel traces them instead of camera rays, and records where they arrive after smooth surfaces.
 struct PhotonTrials {
     std::vector<EmittedPhoton> emitted; // by slot

@@ -84,71 +84,85 @@ PhotonSource photon_source(const SceneTables& scene) {
     return source;
 }
 
-} // namespace
+// Calls task(i, scratch) for each tile; false if `wanted` returned false.
+template <class Task> bool for_each_pilot_tile(size_t count, const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                               const std::function<bool()>& wanted, const Task& task) {
+    return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
+        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+        task(size_t(i), *scratch[worker]);
+    });
+}
 
-std::optional<GuidingField> learn_path_guiding(KernelContext context, const Kernel& kernel, const Workers& workers,
-                                               std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
+KernelContext pilot_context(KernelContext context) {
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
-    const auto for_each_tile = [&](size_t count, const auto& task) {
-        return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
-            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-            task(size_t(i), *scratch[worker]);
-        });
-    };
+    return context;
+}
 
-    if (context.scene->lights.count == 0) return GuidingField();
-    // Photons. They meet no NEE.
-    SceneTables emission = *context.scene, photon_tables = emission;
+std::vector<GuidingTrial> joined(const std::vector<std::vector<GuidingTrial>>& of_tile) {
+    std::vector<GuidingTrial> all;
+    for (const auto& some : of_tile) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+} // namespace
+
+std::shared_ptr<const CausticPhotons> trace_caustic_photons(KernelContext context, const Kernel& kernel, const Workers& workers,
+                                                            std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                                            const std::function<bool()>& wanted) {
+    if (context.scene->lights.count == 0) return std::make_shared<const CausticPhotons>();
+    SceneTables emission = *context.scene;
     emission.lights.portals = {};
-    photon_tables.lights.portals = {};
-    photon_tables.lights.count = 0;
-    photon_tables.guides = {};
+    SceneTables tables = emission;
+    tables.lights.count = 0; // photons meet no NEE
+    tables.guides = {};
     const PhotonSource source = photon_source(emission);
-    KernelContext tracing = context;
-    tracing.scene = &photon_tables;
-    tracing.settings.strategy = Strategy::bsdf;
-    tracing.seed = photon_seed;
+    context = pilot_context(context);
+    context.scene = &tables;
+    context.settings.strategy = Strategy::bsdf;
+    context.seed = photon_seed;
     const auto pixels = int64_t(double(context.settings.width) * double(context.settings.height));
-    const int64_t photon_tiles = std::clamp(pixels / pixels_per_photon_tile, min_photon_tiles, max_photon_tiles);
-    std::vector<std::vector<GuidingTrial>> of_tile((size_t(photon_tiles)));
-    const bool traced = for_each_tile(of_tile.size(), [&](size_t i, TileScratch& tile) {
+    const int64_t tiles = std::clamp(pixels / pixels_per_photon_tile, min_photon_tiles, max_photon_tiles);
+    std::vector<std::vector<GuidingTrial>> of_tile((size_t(tiles)));
+    const bool traced = for_each_pilot_tile(of_tile.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
         tile.photons = std::make_unique<PhotonTrials>();
         for (uint32_t k = 0; k < uint32_t(tile_capacity); ++k)
             tile.photons->emitted.push_back(source.emit(uint32_t(i) * uint32_t(tile_capacity) + k));
-        kernel.render(tracing, {.x = int(i) * photon_tile, .y = 0, .width = photon_tile, .height = photon_tile}, tile);
+        kernel.render(context, {.x = int(i) * photon_tile, .y = 0, .width = photon_tile, .height = photon_tile}, tile);
         of_tile[i] = std::move(std::exchange(tile.photons, nullptr)->arrived);
     });
-    if (!traced) return std::nullopt;
-    std::vector<GuidingTrial> photons, paths;
-    for (const auto& some : of_tile) photons.insert(photons.end(), some.begin(), some.end());
+    if (!traced) return nullptr;
+    return std::make_shared<const CausticPhotons>(CausticPhotons{joined(of_tile), tiles * tile_capacity});
+}
 
-    // What else arrives.
+std::optional<GuidingField> learn_path_guiding(KernelContext context, const CausticPhotons& photons, const Kernel& kernel,
+                                               const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                               const std::function<bool()>& wanted) {
+    if (photons.arrived.empty()) return GuidingField();
+    context = pilot_context(context);
     const double shrink = std::min(1.0, std::sqrt(path_pixels / (double(context.settings.width) * double(context.settings.height))));
     const int width = std::max(1, int(double(context.settings.width) * shrink)),
               height = std::max(1, int(double(context.settings.height) * shrink));
-    KernelContext measuring = context;
-    measuring.settings.width = float(width);
-    measuring.settings.height = float(height);
-    measuring.seed = path_seed;
-    std::vector<TileJob> path_tiles;
+    context.settings.width = float(width);
+    context.settings.height = float(height);
+    context.seed = path_seed;
+    std::vector<TileJob> tiles;
     for (int y = 0; y < height; y += path_tile)
         for (int x = 0; x < width; x += path_tile)
-            path_tiles.push_back({.x = x,
-                                  .y = y,
-                                  .width = std::min(path_tile, width - x),
-                                  .height = std::min(path_tile, height - y),
-                                  .first_sample = 0,
-                                  .samples = path_samples});
-    of_tile.assign(path_tiles.size(), {});
-    const bool learned = for_each_tile(path_tiles.size(), [&](size_t i, TileScratch& tile) {
+            tiles.push_back({.x = x,
+                             .y = y,
+                             .width = std::min(path_tile, width - x),
+                             .height = std::min(path_tile, height - y),
+                             .first_sample = 0,
+                             .samples = path_samples});
+    std::vector<std::vector<GuidingTrial>> of_tile(tiles.size());
+    const bool measured = for_each_pilot_tile(tiles.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
         tile.guiding = std::make_unique<GuidingTrials>();
-        kernel.render(measuring, path_tiles[i], tile);
+        kernel.render(context, tiles[i], tile);
         of_tile[i] = std::move(std::exchange(tile.guiding, nullptr)->all);
     });
-    if (!learned) return std::nullopt;
-    for (const auto& some : of_tile) paths.insert(paths.end(), some.begin(), some.end());
-    return GuidingField(photons, photon_tiles * tile_capacity, paths, context.scene->guides.casters, workers);
+    if (!measured) return std::nullopt;
+    return GuidingField(photons.arrived, photons.emitted, joined(of_tile), context.scene->guides.casters, workers);
 }
 
 } // namespace blush

@@ -4,6 +4,7 @@
 #include "render/pilots/portal_pilot.h"
 #include "render/pilots/visibility_pilot.h"
 
+#include <optional>
 #include <utility>
 
 namespace blush {
@@ -20,7 +21,14 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         choice.decide(*std::move(result));
         return true;
     };
-    return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_path_guiding);
+    const auto learn_guiding = [&](const KernelContext& with, auto&&... others) -> std::optional<GuidingField> {
+        const bool keeps = !visibility_.pays();
+        auto photons = keeps && photons_ ? photons_ : trace_caustic_photons(with, others...);
+        if (!photons) return std::nullopt;
+        if (keeps) photons_ = photons;
+        return learn_path_guiding(with, *photons, others...);
+    };
+    return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding);
 }
 
 } // namespace blush

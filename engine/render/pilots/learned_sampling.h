@@ -22,6 +22,9 @@ public:
     LearnedSampling(const RenderSettings& settings, const RenderScene& scene)
         : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene) {}
 
+    // Takes over what does not depend on the camera. `before`: for an image that differs at most in the view.
+    void keep_from(const LearnedSampling& before) { photons_ = before.photons_; }
+
     bool needs_pilot() const { return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot(); }
     // Runs the pilots that are needed; each measures the samples as those before it have decided. `context`: as for the film at full
     // resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. False if
@@ -46,6 +49,7 @@ private:
     VisibilityChoice visibility_;
     PortalChoice portals_;
     GuidingChoice guiding_;
+    std::shared_ptr<const CausticPhotons> photons_; // as traced without learned visibility, which depends on the camera; may be null
 };
 
 } // namespace blush

@@ -6,6 +6,7 @@
 #include "tests/render/scenes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace blush::test::TEST_FILE {
@@ -130,7 +131,10 @@ TEST(GuidingPilot, ReducesTheError) {
 }
 
 TEST(GuidingPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
-    EXPECT_TRUE(learned_by_every_kernel(balls_under_lamp(), settings_of(4), learn_path_guiding).figures());
+    const auto pilot = [](const auto& context, auto&&... others) {
+        return learn_path_guiding(context, *trace_caustic_photons(context, others...), others...);
+    };
+    EXPECT_TRUE(learned_by_every_kernel(balls_under_lamp(), settings_of(4), pilot).figures());
 }
 
 // What is gained is so much that the first sample is rendered again when a second one follows.
@@ -176,6 +180,29 @@ TEST(GuidingPilot, IsTheSameAfterAnEditAsAfterAFreshStart) {
         EXPECT_EQ(feature_line(renderer, feature).why, decided(next, settings).why);
         EXPECT_TRUE(same_pixels(renderer.resolve(), fresh_image(next, settings, 4)));
     }
+}
+
+// They do not depend on the camera.
+TEST(GuidingPilot, KeepsThePhotonsWhenOnlyTheViewChanges) {
+    const Scene scene = balls_under_lamp();
+    Scene turned = scene, moved = scene;
+    turned.view = looking({1, 1.5f, 6}, {0, 1, 0}, 0.6f);
+    place(moved, sphere(false), metal(0), at({0, 0.4f, 1.5f}, 0.3f));
+    const RenderSettings settings = settings_of(4);
+    const auto tiles_of = [&](Renderer& renderer, const Scene& next) { // of all pilots
+        std::atomic<int> tiles = 0;
+        renderer.update(next, settings);
+        EXPECT_TRUE(renderer.decide([&] { return ++tiles > 0; }));
+        return tiles.load();
+    };
+    const auto fresh_tiles = [&](const Scene& next) {
+        Renderer renderer(all_planes());
+        return tiles_of(renderer, next);
+    };
+    Renderer renderer(all_planes());
+    EXPECT_EQ(tiles_of(renderer, scene), fresh_tiles(scene));
+    EXPECT_LE(tiles_of(renderer, turned), fresh_tiles(turned) - 8); // the least number of tiles of photons
+    EXPECT_EQ(tiles_of(renderer, moved), fresh_tiles(moved));
 }
 
 TEST(GuidingPilot, IsFollowedByThePathLog) { expect_log_follows_image(balls_under_lamp(), settings_of(8)); }

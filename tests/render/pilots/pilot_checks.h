@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <gtest/gtest.h>
 #include <initializer_list>
 #include <memory>
@@ -50,7 +51,7 @@ template <class Pilot> auto learned_by_every_kernel(const Scene& scene, const Re
     const auto learn = [&](const Kernel& kernel, unsigned threads) {
         const Workers workers(threads);
         std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-        return *pilot(context, kernel, workers, scratch, {});
+        return *pilot(context, kernel, workers, scratch, std::function<bool()>());
     };
     auto expected = learn(kernels_of("scalar").back(), 1);
     for (const std::string_view isa : runnable_isas()) {
