@@ -91,13 +91,26 @@ Json figures_of(const Contest& contest, const std::vector<Round>& rounds) {
             {"ratio_quartiles", {rounded(quantile(ratios, 0.25)), rounded(quantile(ratios, 0.75))}}};
 }
 
+// Core seconds of each stage over those of all, of the last round.
+Json stage_shares(Contest& contest) {
+    const StageSeconds stages = contest.renderer.resolve().stages;
+    double all = 0;
+    for (const double seconds : stages.of) all += seconds;
+    Json shares;
+    for (size_t k = 0; k < stage_names.size(); ++k) shares[std::string(stage_names[k])] = rounded(stages.of[k] / all);
+    return shares;
+}
+
 bool is_measured(const BenchScene& scene) { return !scene.ours || scene.name() == "cornell.gltf"; }
 
 } // namespace
 
 Json run_rate(const Options& options) {
     Json result = Json::array();
-    for (const BenchScene& scene : options.scenes) {
+    std::vector<BenchScene> scenes = options.scenes;
+    for (BenchScene& scene : generated_scenes())
+        if (scene.name().find(options.only) != std::string::npos) scenes.push_back(std::move(scene));
+    for (const BenchScene& scene : scenes) {
         if (!is_measured(scene)) continue;
         for (const unsigned threads : std::set{1u, options.threads}) {
             Contest contest(scene.scene, threads);
@@ -106,6 +119,7 @@ Json run_rate(const Options& options) {
             for (int i = 0; i < options.rounds; ++i) rounds.push_back(play_round(contest));
             Json figures{{"scene", scene.name()}, {"threads", threads}, {"kernel", contest.renderer.info().kernel}};
             figures.update(figures_of(contest, rounds));
+            figures["stages"] = stage_shares(contest);
             result.push_back(figures);
         }
     }

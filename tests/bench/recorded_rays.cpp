@@ -16,7 +16,7 @@ template <class T> std::vector<T> copied(const T* column, int count) {
 }
 
 // Of either queue.
-template <class Queue> RayBatch batch_of(const Queue& q, const TileScratch& scratch, const Accel& accel, int bounce) {
+template <class Queue> RayBatch batch_of(const Queue& q, const uint32_t* random, const KernelContext& context, int bounce) {
     RayBatch batch;
     batch.count = q.size;
     batch.coherent = bounce == 0;
@@ -26,7 +26,8 @@ template <class Queue> RayBatch batch_of(const Queue& q, const TileScratch& scra
     batch.dx = copied<float>(q.dx, q.size);
     batch.dy = copied<float>(q.dy, q.size);
     batch.dz = copied<float>(q.dz, q.size);
-    if (accel.has_alpha()) batch.random = copied<uint32_t>(scratch.random, q.size);
+    batch.blends = context.scene->blends;
+    if (batch.blends) batch.random = copied<uint32_t>(random, q.size);
     return batch;
 }
 
@@ -39,10 +40,10 @@ RecordedRays record_tile(const KernelContext& context, const TileJob& job, TileS
     PathQueue* next = &scratch.paths[1];
     for (int bounce = 0; now->size > 0 && bounce <= max_path_length; ++bounce) {
         trace_paths<all_features, float>(context, scratch, *now, *next, bounce);
-        of_kind(rays, bounce == 0 ? RayKind::camera : RayKind::bounce).push_back(batch_of(*now, scratch, *context.accel, bounce));
+        of_kind(rays, bounce == 0 ? RayKind::camera : RayKind::bounce).push_back(batch_of(*now, scratch.random, context, bounce));
         shade_paths<all_features, float>(context, scratch, *now, *next, bounce);
         if (const ShadowQueue& shadows = scratch.shadows; shadows.size > 0) {
-            RayBatch batch = batch_of(shadows, scratch, *context.accel, bounce);
+            RayBatch batch = batch_of(shadows, shadows.random, context, bounce);
             batch.far_distance = copied<float>(shadows.distance, shadows.size);
             of_kind(rays, RayKind::shadow).push_back(std::move(batch));
             connect_paths<all_features, float>(context, scratch, bounce);
@@ -85,7 +86,9 @@ void replay(const Accel& accel, const RecordedRays& rays, RayKind kind, const Wo
     workers.for_each(int64_t(batches.size()), {}, [&](int64_t i, unsigned worker) {
         const RayBatch& batch = batches[size_t(i)];
         HitColumns& h = hits[worker];
-        if (kind == RayKind::shadow)
+        if (kind == RayKind::shadow && batch.blends)
+            accel.transmittance(arrays_of(batch), batch.count, batch.coherent, h.t);
+        else if (kind == RayKind::shadow)
             accel.occluded(arrays_of(batch), batch.count, batch.coherent, blocked[worker]);
         else
             accel.intersect(arrays_of(batch), batch.count, batch.coherent, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});

@@ -19,7 +19,8 @@ struct RayBatch {
     bool coherent = false;
     std::vector<float> ox, oy, oz, dx, dy, dz;
     std::vector<float> far_distance; // shadow rays only
-    std::vector<uint32_t> random;    // scenes with stochastic opacity only
+    bool blends = false;             // of a scene with blended surfaces
+    std::vector<uint32_t> random;    // only of such a scene
 };
 
 // By kind.

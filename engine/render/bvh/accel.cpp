@@ -2,11 +2,12 @@
 
 #include "core/math.h"
 #include "core/memory_limit.h"
-#include "core/sampler.h"
 #include "core/tsan_annotations.h"
 #include "render/bvh/compact_bvh.h"
-#include "render/bvh/opacity.h"
+#include "render/bvh/opacity_filter.h"
+#include "render/bvh/packets.h"
 #include "render/bvh/small_scene.h"
+#include "render/bvh/transmittance.h"
 #include "render/compile/scene_tables.h"
 #include "scene/affine.h"
 
@@ -24,29 +25,6 @@
 namespace blush {
 namespace {
 
-// User data of a geometry's opacity filter: the part that its triangles belong to. Embree keeps a pointer to it.
-struct AlphaPart {
-    const SceneTables* tables;
-    int32_t part;
-};
-
-// Stochastic opacity: a hit counts with probability `opacity`, decided by a hash of the ray's random number, the triangle and the
-// instance, so the result does not depend on how often or in which order Embree calls the filter.
-void opacity_filter(const RTCFilterFunctionNArguments* args) {
-    const AlphaPart& alpha = *static_cast<const AlphaPart*>(args->geometryUserPtr);
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] == 0) continue;
-        const int32_t triangle = int32_t(RTCHitN_primID(args->hit, args->N, i));
-        const float opacity =
-            opacity_at_hit(*alpha.tables, alpha.part, triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
-        if (opacity >= 1) continue;
-        const uint32_t random = RTCRayN_id(args->ray, args->N, i);
-        const uint32_t place = pcg_hash(uint32_t(alpha.part) ^ pcg_hash(RTCHitN_instID(args->hit, args->N, i, 0)));
-        const uint32_t key = pcg_hash(random ^ pcg_hash(uint32_t(triangle) ^ place));
-        if (unit_float<float>(key) >= opacity) args->valid[i] = 0;
-    }
-}
-
 struct SceneHandle {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<AlphaPart>> alpha_parts;
@@ -58,6 +36,8 @@ struct SceneHandle {
     explicit SceneHandle(RTCDevice device, size_t compact = 0) : scene(rtcNewScene(device)), compact_triangles(compact) {
         // Watertight at shared edges: a leak of one ray in 1e5 would show in closed rooms.
         rtcSetSceneFlags(scene, compact > 0 ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT) : RTC_SCENE_FLAG_ROBUST);
+        // Without spatial splits (RTC_BUILD_QUALITY_HIGH): they store a triangle in several leaves, each of which may report its hit, and
+        // Accel::transmittance must count it once. Embree 3.13 splits no triangles that have a filter, but does not promise it.
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     }
     SceneHandle(SceneHandle&& other) noexcept
@@ -143,50 +123,6 @@ bool needs_compact_bvh_for(size_t triangles, uint64_t memory_left) {
     return needs_compact_bvh(triangles, memory_left ? memory_left : memory_limit().left);
 }
 
-template <int N> struct Packet;
-template <> struct Packet<4> {
-    using RayHit = RTCRayHit4;
-    using Ray = RTCRay4;
-    static constexpr auto intersect = rtcIntersect4;
-    static constexpr auto occluded = rtcOccluded4;
-};
-template <> struct Packet<8> {
-    using RayHit = RTCRayHit8;
-    using Ray = RTCRay8;
-    static constexpr auto intersect = rtcIntersect8;
-    static constexpr auto occluded = rtcOccluded8;
-};
-template <> struct Packet<16> {
-    using RayHit = RTCRayHit16;
-    using Ray = RTCRay16;
-    static constexpr auto intersect = rtcIntersect16;
-    static constexpr auto occluded = rtcOccluded16;
-};
-
-template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int first) {
-    const auto copy = [&](float* to, const float* from) { std::memcpy(to, from + first, N * sizeof(float)); };
-    copy(ray.org_x, rays.ox);
-    copy(ray.org_y, rays.oy);
-    copy(ray.org_z, rays.oz);
-    copy(ray.dir_x, rays.dx);
-    copy(ray.dir_y, rays.dy);
-    copy(ray.dir_z, rays.dz);
-    if (rays.far_distance)
-        copy(ray.tfar, rays.far_distance);
-    else
-        std::fill_n(ray.tfar, N, infinity);
-    if (rays.random) std::memcpy(ray.id, rays.random + first, N * sizeof(uint32_t));
-    // tnear is just above 0, because the watertight test includes 0: a ray must not hit the surface that it starts on, for
-    // example when the camera lies in it.
-    std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
-    std::fill_n(ray.time, N, 0.f);
-    if (rays.masks)
-        std::memcpy(ray.mask, rays.masks + first, N * sizeof(uint32_t));
-    else
-        std::fill_n(ray.mask, N, rays.mask);
-    std::fill_n(ray.flags, N, 0u);
-}
-
 // Largest ray coordinate that Embree accepts, in world space and in the space of each instance.
 constexpr float embree_range = 1.8e18f;
 
@@ -197,77 +133,6 @@ float max_ray_extent(const Affine& world_from_object) {
     const double norm = std::sqrt(dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) / std::abs(determinant(m)); // of the inverse
     const double reach = 0.99 * embree_range / norm - length(m.t);
     return reach > 0 ? float(std::min(reach, double(embree_range))) : 0.f;
-}
-
-// Marks the first `count` lanes as valid, except rays outside the range that Embree accepts (an Embree built with assertions
-// aborts on them). Such a ray misses everything; its non-finite or huge sample is reported by the film.
-template <int N, class Rays> void valid_lanes(int* valid, const Rays& q, int count, float reach) {
-    for (int i = 0; i < N; ++i) {
-        const float size = std::abs(q.org_x[i]) + std::abs(q.org_y[i]) + std::abs(q.org_z[i]) + std::abs(q.dir_x[i]) +
-                           std::abs(q.dir_y[i]) + std::abs(q.dir_z[i]);
-        valid[i] = -(int(i < count) & int(size <= reach) & int(q.tfar[i] >= 0)); // branchless: runs for every ray
-    }
-}
-
-// The Embree scenes to trace. `area_lights`: separate scene of the area lights; null: they are in the top level. Geometry k of it has the
-// id that it would have in the top level: meshes count from `first_mesh`, then spheres from `first_sphere`.
-struct TracedScenes {
-    RTCScene top, area_lights;
-    uint32_t area_light_meshes, first_mesh, first_sphere;
-    float reach; // largest sum of coordinates of a ray that is traced
-};
-
-// Continues q, which holds the hits of the top level, in the scene of the area lights.
-template <int N> void intersect_area_lights(const TracedScenes& scenes, RTCIntersectContext& context, const int* valid, auto& q) {
-    alignas(64) uint32_t before[N];
-    std::copy_n(q.hit.geomID, N, before);
-    std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
-    Packet<N>::intersect(valid, scenes.area_lights, &context, &q);
-    for (int i = 0; i < N; ++i) {
-        uint32_t& geometry = q.hit.geomID[i];
-        if (geometry == RTC_INVALID_GEOMETRY_ID)
-            geometry = before[i];
-        else
-            geometry += geometry < scenes.area_light_meshes ? scenes.first_mesh : scenes.first_sphere - scenes.area_light_meshes;
-    }
-}
-
-template <int N>
-void intersect_packets(const TracedScenes& scenes, RTCIntersectContext& context, const RayArrays& rays, int count, const HitArrays& hits) {
-    alignas(64) int valid[N];
-    alignas(64) typename Packet<N>::RayHit q;
-    for (int k = 0; k < count; k += N) {
-        load_rays<N>(q.ray, rays, k);
-        std::fill_n(q.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(q.hit.instID[0], N, RTC_INVALID_GEOMETRY_ID);
-        valid_lanes<N>(valid, q.ray, count - k, scenes.reach);
-        Packet<N>::intersect(valid, scenes.top, &context, &q);
-        if (scenes.area_lights) intersect_area_lights<N>(scenes, context, valid, q);
-        const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
-        copy(hits.t, q.ray.tfar);
-        copy(hits.u, q.hit.u);
-        copy(hits.v, q.hit.v);
-        copy(hits.geometry, q.hit.geomID);
-        copy(hits.instance, q.hit.instID[0]);
-        copy(hits.triangle, q.hit.primID);
-    }
-}
-
-template <int N>
-void occluded_packets(const TracedScenes& scenes, RTCIntersectContext& context, const RayArrays& rays, int count, uint8_t* blocked) {
-    alignas(64) int valid[N];
-    alignas(64) typename Packet<N>::Ray q;
-    for (int k = 0; k < count; k += N) {
-        load_rays<N>(q, rays, k);
-        valid_lanes<N>(valid, q, count - k, scenes.reach);
-        Packet<N>::occluded(valid, scenes.top, &context, &q);
-        if (scenes.area_lights) {
-            for (int i = 0; i < N; ++i) valid[i] &= -int(q.tfar[i] >= 0);
-            Packet<N>::occluded(valid, scenes.area_lights, &context, &q);
-        }
-        const int n = std::min(N, count - k);
-        for (int i = 0; i < n; ++i) blocked[k + i] = q.tfar[i] < 0;
-    }
 }
 
 // Memory of an Embree device and its first thread, with a margin.
@@ -322,7 +187,6 @@ struct Accel::State {
     uint32_t first_sphere = 0;      // Embree id of the first sphere geometry, after the instances
     std::vector<MeshInstances> instances;
     std::vector<int32_t> sphere_indices; // index of the first sphere of each sphere geometry
-    bool alpha = false;
     std::optional<SmallScene> small;
     float reach = embree_range; // largest sum of coordinates of a ray that is traced
 
@@ -345,6 +209,7 @@ struct Accel::State {
         rtcReleaseDevice(device);
     }
     void add_spheres(SceneHandle& to, std::span<const AccelSphere> spheres);
+    void trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits) const;
     void check_for_errors() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
             throw std::runtime_error(why_not_built(error, memory.bytes));
@@ -385,7 +250,6 @@ void Accel::commit_area_lights(std::span<const AccelTriangles> meshes, std::span
 void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Workers& workers) {
     State& s = *state_;
     std::map<BottomKey, SceneHandle> kept;
-    s.alpha = false;
     float reach = embree_range;
 
     size_t copies = 0;
@@ -394,10 +258,7 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
     s.own_area_lights = copies >= min_instances_for_area_light_bvh;
     s.first_area_light = uint32_t(s.own_area_lights ? std::min(scene.first_area_light, scene.flat.size()) : scene.flat.size());
     SceneHandle top(s.device);
-    for (size_t i = 0; i < scene.flat.size(); ++i) {
-        if (i < s.first_area_light) top.add_triangles(s.device, scene.flat[i], tables);
-        s.alpha |= scene.flat[i].alpha;
-    }
+    for (size_t i = 0; i < s.first_area_light; ++i) top.add_triangles(s.device, scene.flat[i], tables);
     // Geometry ids are the same whether the area lights have their own scene or not: stochastic opacity is a function of the instance's id.
     top.next_id = s.first_instance = uint32_t(scene.flat.size());
     uint32_t instance_count = 0;
@@ -416,7 +277,6 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
             }
             it = kept.emplace(key, std::move(bottom)).first;
         }
-        for (const AccelTriangles& triangles : instances.geometries) s.alpha |= triangles.alpha;
         for (const InstanceRecord& place : instances.places) {
             top.add_instance(s.device, it->second.scene, place.world_from_object, instances.mask);
             reach = std::min(reach, max_ray_extent(place.world_from_object));
@@ -439,7 +299,6 @@ void Accel::commit(const AccelScene& scene, const SceneTables* tables, const Wor
 }
 
 const SmallScene* Accel::small_scene() const { return state_->small ? &*state_->small : nullptr; }
-bool Accel::has_alpha() const { return state_->alpha; }
 size_t Accel::compact_triangles() const {
     size_t n = 0;
     for (const auto& [key, bottom] : state_->bottoms) n += bottom.compact_triangles;
@@ -450,44 +309,64 @@ size_t Accel::memory_bytes() const { return size_t(std::max<int64_t>(0, state_->
 namespace {
 // Embree 3.13's traversal of coherent packets is a thousand times slower through instances (a mesh of a million triangles,
 // packets of 16 rays). Without instances it is twice as fast for camera rays.
-RTCIntersectContext make_context(bool coherent, bool instances) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    if (coherent && !instances) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+TraceContext make_context(bool coherent, bool instances, Blended blended) {
+    TraceContext context;
+    rtcInitIntersectContext(&context.embree);
+    if (coherent && !instances) context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.blended = blended;
     return context;
+}
+
+// Calls trace(N) with the size of packets as a compile-time constant.
+template <class Trace> void by_packet_size(int size, const Trace& trace) {
+    switch (size) {
+    case 16: return trace(std::integral_constant<int, 16>());
+    case 8: return trace(std::integral_constant<int, 8>());
+    default: return trace(std::integral_constant<int, 4>());
+    }
 }
 } // namespace
 
-void Accel::intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
-    RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
-    const TracedScenes scenes = state_->scenes();
-    switch (state_->packet) {
-    case 16: intersect_packets<16>(scenes, context, rays, count, hits); break;
-    case 8: intersect_packets<8>(scenes, context, rays, count, hits); break;
-    default: intersect_packets<4>(scenes, context, rays, count, hits); break;
-    }
+void Accel::State::trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits) const {
+    TraceContext context = make_context(coherent, !bottoms.empty(), blended);
+    by_packet_size(packet, [&](auto n) { intersect_packets<n>(scenes(), context, rays, count, hits); });
     // Embree numbers instances after the flat geometries
-    const int32_t first_instance = int32_t(state_->first_instance), first_sphere = int32_t(state_->first_sphere);
-    if (first_instance > 0)
+    const auto first = int32_t(first_instance), sphere = int32_t(first_sphere);
+    if (first > 0)
         for (int i = 0; i < count; ++i)
-            if (hits.instance[i] >= 0) hits.instance[i] -= first_instance;
+            if (hits.instance[i] >= 0) hits.instance[i] -= first;
     // and spheres after the instances.
-    if (!state_->sphere_indices.empty())
+    if (!sphere_indices.empty())
         for (int i = 0; i < count; ++i)
-            if (hits.instance[i] < 0 && hits.geometry[i] >= first_sphere) {
-                hits.triangle[i] += state_->sphere_indices[size_t(hits.geometry[i] - first_sphere)];
+            if (hits.instance[i] < 0 && hits.geometry[i] >= sphere) {
+                hits.triangle[i] += sphere_indices[size_t(hits.geometry[i] - sphere)];
                 hits.instance[i] = sphere_instance;
             }
 }
 
+void Accel::intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
+    state_->trace(rays, count, coherent, Blended::by_chance, hits);
+}
+
+void Accel::intersect_unblended(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
+    state_->trace(rays, count, coherent, Blended::ignored, hits);
+}
+
 void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const {
-    RTCIntersectContext context = make_context(coherent, !state_->bottoms.empty());
-    const TracedScenes scenes = state_->scenes();
-    switch (state_->packet) {
-    case 16: occluded_packets<16>(scenes, context, rays, count, blocked); break;
-    case 8: occluded_packets<8>(scenes, context, rays, count, blocked); break;
-    default: occluded_packets<4>(scenes, context, rays, count, blocked); break;
-    }
+    TraceContext context = make_context(coherent, !state_->bottoms.empty(), Blended::by_chance);
+    by_packet_size(state_->packet, [&](auto n) {
+        occluded_packets<n>(state_->scenes(), context, rays, count, [&](int i, int, bool is_blocked) { blocked[i] = is_blocked; });
+    });
+}
+
+void Accel::transmittance(const RayArrays& rays, int count, bool coherent, float* share) const {
+    TraceContext context = make_context(coherent, !state_->bottoms.empty(), Blended::attenuating);
+    by_packet_size(state_->packet, [&](auto n) {
+        occluded_packets<n>(state_->scenes(), context, rays, count, [&](int i, int lane, bool is_blocked) {
+            const uint32_t depth = context.depth[lane];
+            share[i] = is_blocked ? 0.f : transmittance_of(rays.random ? std::min(depth, roulette_depth) : depth);
+        });
+    });
 }
 
 void Accel::visit_near(const Vec3& center, float radius, const InstanceRecord* places, const NearVisitor& visit) const {

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "render/bvh/accel_scene.h"
 #include "render/bvh/near_query.h"
+#include "render/bvh/ray_arrays.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,24 +19,6 @@ namespace blush {
 
 struct SmallScene;
 struct SceneTables;
-
-// Instance index of a hit on a sphere; the sphere's index is stored as the triangle index.
-constexpr int32_t sphere_instance = -2;
-
-// Rays and hits as arrays of `count`; arrays are readable up to the next multiple of 16.
-struct RayArrays {
-    const float *ox, *oy, *oz, *dx, *dy, *dz;
-    const float* far_distance; // null: infinite
-    const uint32_t* random;    // per-ray random number for stochastic opacity; read only if has_alpha()
-    uint32_t mask = other_ray_mask;
-    const uint32_t* masks = nullptr; // per ray; replaces `mask` if set
-};
-struct HitArrays {
-    float *t, *u, *v;  // t in units of the direction's length; u, v: weights of vertices 1 and 2
-    int32_t* geometry; // -1: miss
-    int32_t* instance; // index among the instances, -1: hit in the flat part, or sphere_instance
-    int32_t* triangle;
-};
 
 class Accel {
 public:
@@ -57,7 +40,6 @@ public:
     void commit_area_lights(std::span<const AccelTriangles> meshes, std::span<const AccelSphere> spheres, const SceneTables* tables,
                             const Workers& workers);
 
-    bool has_alpha() const;
     // Number of triangles in meshes whose BVH stores indices to save memory (compact_bvh.h); each mesh counts once.
     size_t compact_triangles() const;
     size_t memory_bytes() const;
@@ -67,10 +49,19 @@ public:
     const SmallScene* small_scene() const;
 
     // By the BVH: closest hits and any-hits, in the widest packets that this machine
-    // supports. `coherent`: rays share an origin region and direction.
+    // supports. `coherent`: rays share an origin region and direction. Blended surfaces stop rays by chance.
     void intersect(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;
+
+    // For shadow rays in scenes with blended surfaces (SceneTables::blends), always by the BVH. At points that are neither opaque nor
+    // clear, these rays are not stopped by chance:
+    // share[i] of the light passes along ray i within far_distance: the product of the transmittances, 1 - opacity, of those points,
+    // or 0 if the ray hits anything else. If rays.random is set, panes (material_pane) are met by chance, and small products end by
+    // Russian roulette.
+    void transmittance(const RayArrays& rays, int count, bool coherent, float* share) const;
+    // Closest hits on anything else.
+    void intersect_unblended(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const;
     // Visits the triangles near a point (near_query.h). `places` of the instances, as committed.
     void visit_near(const Vec3& center, float radius, const InstanceRecord* places, const NearVisitor& visit) const;
 

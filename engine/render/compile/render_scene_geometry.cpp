@@ -112,6 +112,7 @@ void RenderScene::update_used_materials(const Scene& scene, const UpdatePlan& pl
     changed_.casters = used.casters != used_.casters;
     changed_.alpha = used.alpha != used_.alpha;
     used_ = std::move(used);
+    tables_.blends = used_.blends;
     tables_.panes = used_.panes;
 }
 

@@ -76,7 +76,8 @@ struct SceneTables {
     GuideTables guides;
     GroupTables groups; // null: no light mix
     LinkTables links;
-    bool panes = false; // some part is a wall that may transmit straight through (thin_transmission.h)
+    bool blends = false; // some part may be neither opaque nor clear: shadow rays carry its transmittance
+    bool panes = false;  // some part is a wall that may transmit straight through (thin_transmission.h)
     CameraRecord camera{};
 };
 

@@ -22,6 +22,7 @@ UsedMaterials describe(std::vector<Id<Material>> ids, const Scene& scene, const 
         if (is_emissive(table.records[size_t(table.index_of(id))])) used.emissive.push_back(id);
         if (!material) continue;
         if (material->alpha != Material::Alpha::opaque) used.alpha.push_back(id);
+        used.blends |= material->alpha == Material::Alpha::blend;
         if (casts_caustics(*material)) used.casters.push_back(id);
         used.panes |= may_pass_straight(*material);
         const TextureReads reads = texture_reads(*material);

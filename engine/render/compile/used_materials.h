@@ -18,6 +18,7 @@ struct UsedMaterials {
     std::vector<Id<Material>> casters;  // of caustics
     std::set<int> uv_sets;              // that their textures read
     bool tangents = false;
+    bool blends = false;     // some is neither opaque nor masked
     bool panes = false;      // light may pass one straight through (thin_transmission.h)
     bool lambertian = false; // some surface may be
     Features features;

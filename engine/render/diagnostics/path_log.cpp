@@ -72,12 +72,19 @@ struct Logger {
         line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
     }
 
+    // Panes and blended surfaces dim the light.
+    static std::string visibility(const Step<float>& step, const Vec3& reached) {
+        if (!has_light<float>(reached)) return "occluded";
+        const bool dimmed = luminance(reached) < 0.9999f * luminance(step.direct);
+        return dimmed ? "dimmed to " + rgb(reached) : "unoccluded";
+    }
+
     void outcome(int bounce, const Step<float>& step, const Vec3& reached) {
         const StepWeights<float>& w = step.weights;
         if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
-                 has_light<float>(reached) ? "unoccluded" : "occluded", step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+                 visibility(step, reached), step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
         const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1) line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.non_finite) {

@@ -13,11 +13,11 @@ constexpr Features features = all_features;
 // Traces camera rays to their first surface, including catchers.
 void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
     const PathQueue& q = tile.paths[0];
-    const bool alpha = context.accel->has_alpha();
-    if (alpha)
+    const bool blends = context.scene->blends;
+    if (blends)
         for (int k = 0; k < q.size; ++k) tile.random[k] = opacity_random<float>(q.key[k], q.index[k], 0);
     const RayArrays rays{
-        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? tile.random.data : nullptr, camera_ray_mask | catcher_ray_mask};
+        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? tile.random.data : nullptr, camera_ray_mask | catcher_ray_mask};
     HitColumns& h = tile.hits;
     context.accel->intersect(rays, q.size, true, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
@@ -32,7 +32,7 @@ float queue_catcher_shadow_ray(const KernelContext& context, const Surface<float
     const Step<float> step = sample_light_at_meter(context, receiver, Sampler<float>{path.key, path.index}, surface.part);
     if (!step.connects || !(dot(step.shadow.direction, ng) > 0)) return 0;
     ShadowQueue& q = tile.shadows;
-    if (context.accel->has_alpha()) q.random[q.size] = opacity_random<float>(path.key, path.index, 1);
+    if (context.scene->blends) q.random[q.size] = opacity_random<float>(path.key, path.index, 1);
     q.mask[q.size] = step.shadow_mask;
     append<float>(q, step, path.slot, true);
     return luminance(step.direct);
@@ -46,12 +46,11 @@ void drop_shadows_of_catchers(const KernelContext& context, CatcherScratch& scra
     for (int k = 0; k < q.size; ++k) masks[k] = q.mask[k] == other_ray_mask ? catcher_ray_mask : 0;
     RayArrays rays = shadow_rays_of(context, q);
     rays.masks = masks.data;
-    context.accel->occluded(rays, q.size, true, tile.blocked);
-    for (int k = 0; k < q.size; ++k) {
-        if (!tile.blocked[k]) continue;
-        scratch.columns.unoccluded[q.slot[k]] = 0;
-        q.r[k] = q.g[k] = q.b[k] = 0;
-    }
+    rays.random = nullptr;
+    float* share = tile.hits.t; // free: the hits' surfaces are known
+    context.accel->transmittance(rays, q.size, true, share);
+    // The other sum is that of connect_paths(), whose rays meet catchers like all objects.
+    for (int k = 0; k < q.size; ++k) scratch.columns.unoccluded[q.slot[k]] *= share[k];
 }
 
 } // namespace

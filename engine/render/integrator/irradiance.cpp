@@ -64,7 +64,7 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
     std::fill_n(scratch.r.data, samples, 0.0);
     std::fill_n(scratch.g.data, samples, 0.0);
     std::fill_n(scratch.b.data, samples, 0.0);
-    const bool alpha = context.accel->has_alpha();
+    const bool blends = context.scene->blends;
     for (int i = 0; i < samples; ++i) {
         const Sampler<float> sampler{key, uint32_t(i)};
         now->part[now->size] = from_meter;
@@ -73,7 +73,7 @@ Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uin
         if (context.scene->lights.count == 0) continue;
         const Step<float> step = sample_light_at_meter(context, receiver, sampler, from_meter);
         if (!step.connects) continue;
-        if (alpha) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
+        if (blends) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
         scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;
         append<float>(scratch.shadows, step, i, true);
     }

@@ -80,14 +80,14 @@ template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
             load<Int<F>>(h.triangle + k)};
 }
 
-// Closest hits of the queue's path rays. `random` is written if some material is not opaque.
+// Closest hits of the queue's path rays. `random` is written if some surface is blended.
 template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
-    const bool alpha = context.accel->has_alpha();
-    if (alpha)
+    const bool blends = context.scene->blends;
+    if (blends)
         for (int k = 0; k < q.size; k += width<F>)
             store(random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
     const RayArrays rays{
-        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, alpha ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
+        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
     trace_closest<F>(*context.accel, rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
 }
 
@@ -95,7 +95,7 @@ inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue&
     return {q.ox,           q.oy,
             q.oz,           q.dx,
             q.dy,           q.dz,
-            q.distance,     context.accel->has_alpha() ? q.random.data : nullptr,
+            q.distance,     context.scene->blends ? q.random.data : nullptr,
             other_ray_mask, context.scene->links.lit_sets ? q.mask.data : nullptr};
 }
 
@@ -159,6 +159,13 @@ template <class F> void record_photons(PhotonTrials& photons, const Path<F>& pat
         const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
         photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
     });
+}
+
+// Leaves a share of the light of shadow ray k: the transmittance of blended surfaces.
+inline void dim_shadow_light(TileScratch& scratch, int k, float share) {
+    ShadowQueue& q = scratch.shadows;
+    for (Column<float>* light : {&q.r, &q.g, &q.b}) (*light)[k] = share > 0 ? (*light)[k] * share : 0.f;
+    if (scratch.trials) (*scratch.trials)[size_t(q.trial[k])].transmittance *= share;
 }
 
 // Adds the light of unoccluded shadow ray k.

@@ -14,8 +14,9 @@
 // so Russian roulette does not matter. Emission of y_k itself stays with pixel k, where the pdf for its MIS weight is known.
 //
 // Whether x_j takes part depends on x_j alone, and whether it can have y depends on these two points alone, never on sampled
-// directions: the shared and unshared paths partition path space. Stochastic opacity along a connection is decided independently
-// for each connection, as if V were the path's own; the expectation is the same.
+// directions: the shared and unshared paths partition path space. In scenes with blended surfaces V is the transmittance along the
+// connection: x_j continues to y with the density V_j G_j, because its own rays meet such surfaces by chance. Then the path's own
+// segment is asked too.
 #pragma once
 
 #include "render/integrator/estimator.h"
@@ -36,13 +37,9 @@ constexpr float max_shared_radiance = min_reflectance * std::numeric_limits<floa
 // Valid range of densities per square metre: sums and quotients within it neither overflow nor vanish.
 constexpr float min_density = 0x1p-100f, max_density = 0x1p100f;
 
-// Salt of the random numbers for opacity along connections; salts of a path's own rays count from 0.
-constexpr uint32_t connection_salt = 0xffffffffu;
-
 // Stores the vertices of paths k, k + 1, ... of the queue at bounce 0
 // or 1. At bounce 0 there is no compaction: the k-th path is slot k.
-template <class F>
-void store_reuse_vertex(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const Path<F>& path, const ReuseVertex<F>& j) {
+template <class F> void store_reuse_vertex(ReuseColumns& reuse, const PathQueue& now, int k, int bounce, const ReuseVertex<F>& j) {
     ReuseVertexColumns& c = bounce == 0 ? reuse.first : reuse.second;
     store(c.px + k, j.position.x);
     store(c.py + k, j.position.y);
@@ -61,7 +58,6 @@ void store_reuse_vertex(ReuseColumns& reuse, const PathQueue& now, int k, int bo
         store(reuse.rho_b + k, j.reflectance.z);
         store(reuse.second_of + k, Int<F>(-1));
     } else {
-        store(reuse.random + k, pcg_hash(UInt<F>(path.key ^ (path.index + connection_salt))));
         for (int i = 0; i < width<F> && k + i < now.size; ++i) reuse.second_of[now.slot[k + i]] = k + i;
     }
 }
@@ -88,9 +84,10 @@ template <class F> Vec<F> gather_columns(const float* x, const float* y, const f
 // Computes G for every member and vertex of the batch, and queues
 // visibility rays from vertex to member where visibility is unknown.
 template <class F>
-void queue_connections(const GuideTables& guides, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
+void queue_connections(const SceneTables& scene, const ReuseColumns& reuse, ReuseBatch& batch, int group_size, ShadowQueue& q) {
     const int pairs = batch.vertices * group_size, last_member = group_size - 1, shift = std::countr_zero(unsigned(group_size));
     const ReuseVertexColumns &a = reuse.first, &b = reuse.second;
+    const GuideTables& guides = scene.guides;
     q.size = 0;
     for (int k = 0; k < pairs; k += width<F>) {
         const Int<F> pair = min(Int<F>(iota<F>() + k), Int<F>(pairs - 1));
@@ -123,7 +120,7 @@ void queue_connections(const GuideTables& guides, const ReuseColumns& reuse, Reu
         }
         store(batch.drawn + k, drawn);
 
-        const Mask<F> asks = !own && density > F(0.f);
+        const Mask<F> asks = (!own || Mask<F>(scene.blends)) && density > F(0.f);
         if (!any(asks)) continue;
         // Both ends are offset to the side of their surface that faces the other.
         const Vec<F> from = offset_origin(at_y, ng_y * gather(b.clearance.data, y));
@@ -139,9 +136,25 @@ void queue_connections(const GuideTables& guides, const ReuseColumns& reuse, Reu
         compress(q.dz + n, F(ray.z / distance), lanes);
         compress(q.distance + n, F(distance * (1.f - 4e-7f)), lanes);
         compress(q.slot + n, Int<F>(iota<F>() + k), lanes);
-        compress(q.random + n, pcg_hash(UInt<F>(gather(reuse.random.data, y) + to_unsigned(member))), lanes);
         q.size += count(asks);
     }
+}
+
+// Multiplies the densities of connections by their visibility. Not coherent: rays of one vertex form a narrow fan, but packets mix
+// several vertices.
+template <class F> void dim_connections(const KernelContext& context, TileScratch& scratch, ReuseBatch& batch) {
+    const ShadowQueue& q = scratch.shadows;
+    const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, nullptr};
+    if (!context.scene->blends) {
+        trace_any<F>(*context.accel, rays, q.size, false, scratch.blocked);
+        for (int k = 0; k < q.size; ++k)
+            if (scratch.blocked[k]) batch.density[q.slot[k]] = batch.drawn[q.slot[k]] = 0;
+        return;
+    }
+    const float* share = scratch.hits.t; // free: all paths have ended
+    context.accel->transmittance(rays, q.size, false, scratch.hits.t);
+    for (int k = 0; k < q.size; ++k)
+        for (float* density : {&batch.density[q.slot[k]], &batch.drawn[q.slot[k]]}) *density *= share[k];
 }
 
 // Turns the densities of each vertex into the members' shares, ignoring black reflectances.
@@ -241,13 +254,9 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
     const int group_size = context.settings.reuse.size();
     if (batch.vertices > 0) {
         ShadowQueue& q = scratch.shadows;
-        queue_connections<F>(context.scene->guides, reuse, batch, group_size, q);
-        const RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.distance, context.accel->has_alpha() ? q.random.data : nullptr};
-        // Not coherent: rays of one vertex form a narrow fan, but packets mix several vertices.
-        trace_any<F>(*context.accel, rays, q.size, false, scratch.blocked);
+        queue_connections<F>(*context.scene, reuse, batch, group_size, q);
+        dim_connections<F>(context, scratch, batch);
         scratch.shadow_rays += q.size;
-        for (int k = 0; k < q.size; ++k)
-            if (scratch.blocked[k]) batch.density[q.slot[k]] = batch.drawn[q.slot[k]] = 0;
         Vec3 share[ReuseBatch::max_seats];
         weigh(batch, group_size, share);
         distribute<F>(reuse, batch, group_size, share, {scratch.r, scratch.g, scratch.b});

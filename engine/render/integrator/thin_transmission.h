@@ -207,11 +207,32 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     const Int<F> slot = load<Int<F>>(q.slot + k);
     const Mask<F> goes_on = pane && has_light(s.direct);
     const unsigned b = bits(goes_on);
-    if (context.accel->has_alpha()) compress(q.random + q.size, load<UInt<F>>(q.random + k), b);
+    if (context.scene->blends) compress(q.random + q.size, load<UInt<F>>(q.random + k), b);
     if (scratch.groups) compress(q.group + q.size, load<Int<F>>(q.group + k), b);
     if (scratch.trials) compress(q.trial + q.size, load<Int<F>>(q.trial + k), b);
     if (context.scene->links.lit_sets) compress(q.mask + q.size, load<UInt<F>>(q.mask + k), b);
     append<F>(q, s, slot, goes_on);
+}
+
+// Closest hits of the queue's shadow rays on all but blended surfaces, whose transmittance up to there dims their light. Panes that
+// are blended are met by chance: a ray that hits one goes on, times the pane's transmittance, and must not be dimmed as well.
+template <Features S, class F> void trace_past_blended(const KernelContext& context, TileScratch& scratch, bool coherent) {
+    ShadowQueue& q = scratch.shadows;
+    HitColumns& h = scratch.hits;
+    RayArrays rays = shadow_rays_of(context, q);
+    context.accel->intersect_unblended(rays, q.size, coherent, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+    if (!scratch.panes) scratch.panes = std::make_unique<PaneColumns>();
+    Column<float>&end = scratch.panes->hits.t, &share = scratch.panes->hits.u;
+    for (int k = 0; k < q.size; k += width<F>) {
+        const Hit<F> hit = load_hit<F>(h, k);
+        const Mask<F> pane = is_pane<S, F>(*context.scene, hit, as_mask(iota<F>() + k < q.size));
+        // Ends before the pane. Rays that are blocked need not be traced: a negative distance.
+        const F before_hit = select(pane, hit.t * (1.f - 4e-7f), F(-1.f));
+        store(end + k, select(as_mask(hit.geometry < 0), load<F>(q.distance + k), before_hit));
+    }
+    rays.far_distance = end;
+    context.accel->transmittance(rays, q.size, coherent, share);
+    for (int k = 0; k < q.size; ++k) dim_shadow_light(scratch, k, share[k]);
 }
 
 // Adds the light of all shadow rays that reach their light through any number of panes. Empties the queue.
@@ -220,8 +241,12 @@ template <Features S, class F> void connect_through_panes(const KernelContext& c
     HitColumns& h = scratch.hits;
     for (int round = 0; q.size > 0 && round < max_path_length; ++round) {
         if (round > 0) scratch.shadow_rays += q.size;
-        trace_closest<F>(*context.accel, shadow_rays_of(context, q), q.size, bounce == 0 && round == 0,
-                         {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        const bool coherent = bounce == 0 && round == 0;
+        if (context.scene->blends)
+            trace_past_blended<S, F>(context, scratch, coherent);
+        else
+            trace_closest<F>(*context.accel, shadow_rays_of(context, q), q.size, coherent,
+                             {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
         const int count = std::exchange(q.size, 0);
         for (int k = 0; k < count; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < count);

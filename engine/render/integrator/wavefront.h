@@ -119,7 +119,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
                                                                     const PathQueue& now, PathQueue& next, int bounce) {
     next.size = 0;
     scratch.shadows.size = 0;
-    const bool alpha = context.accel->has_alpha();
+    const bool blends = context.scene->blends;
     SampledTimer light_timer;
     for (int k = 0; k < now.size; k += width<F>) {
         Path<F> path = load_path<S, F>(now, k);
@@ -136,14 +136,14 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             // Path reuse connections do not pass panes, so a segment that does is not shared.
             ReuseVertex<F> reuse_vertex = step.reuse_vertex;
             if (bounce == 1) reuse_vertex.lambertian = reuse_vertex.lambertian && straight;
-            store_reuse_vertex<F>(*scratch.reuse, now, k, bounce, path, reuse_vertex);
+            store_reuse_vertex<F>(*scratch.reuse, now, k, bounce, reuse_vertex);
         }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
         if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
         if (scratch.groups && any(step.emits)) add_emission_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
         if (any(step.connects)) {
-            if (alpha)
+            if (blends)
                 compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
                          bits(step.connects));
             if (scratch.groups) {
@@ -171,6 +171,16 @@ template <Features S, class F> void connect_paths(const KernelContext& context, 
     if constexpr (S.has(Feature::transmission))
         if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
     const ShadowQueue& q = scratch.shadows;
+    if (context.scene->blends) {
+        const float* share = scratch.hits.t; // free: the bounce's hits are shaded
+        context.accel->transmittance(shadow_rays_of(context, q), q.size, bounce == 0, scratch.hits.t);
+        for (int k = 0; k < q.size; ++k) {
+            if (!(share[k] > 0)) continue;
+            dim_shadow_light(scratch, k, share[k]);
+            add_shadow_light(scratch, q, k);
+        }
+        return;
+    }
     trace_any<F>(*context.accel, shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
     for (int k = 0; k < q.size; ++k)
         if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);

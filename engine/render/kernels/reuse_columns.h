@@ -35,7 +35,6 @@ struct ReuseColumns {
     std::vector<RadianceColumns> unshared_groups; // the same by light group; empty: no light mix
     Column<int32_t> second_of;                    // by slot: position in the queue of bounce 1, -1: none
     ReuseVertexColumns second;                    // by position in that queue
-    Column<uint32_t> random;                      // by position in that queue: for stochastic opacity
     ReuseBatch batch;
 };
 

@@ -13,12 +13,14 @@ constexpr double prior_trials = 4; // weight of the coarser estimate
 
 // Rays towards one group: a child of the root or a distant light.
 struct Count {
-    uint32_t tried = 0, arrived = 0;
-    void add(bool has_arrived) {
+    static constexpr double ray = 0x1p16; // shares are rounded, so that the order of trials does not matter
+    uint32_t tried = 0;
+    uint64_t arrived = 0; // times `ray`
+    void add(const ShadowTrial& t) {
         ++tried;
-        arrived += has_arrived;
+        if (t.arrived) arrived += uint64_t(std::lround(double(t.transmittance) * ray));
     }
-    double visibility(double prior) const { return (arrived + prior_trials * prior) / (tried + prior_trials); }
+    double visibility(double prior) const { return (double(arrived) / ray + prior_trials * prior) / (tried + prior_trials); }
 };
 
 // Group of each record; -1: the tree never selects it.
@@ -52,10 +54,10 @@ LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const Ligh
         if (group < 0) continue;
         const size_t row = size_t(visibility_row<float>(shape_, t.position, t.normal)) / size_t(shape_.words),
                      cell = row / visibility_sides;
-        of_scene[size_t(group)].add(t.arrived);
-        of_block[block_of(cell) * g + size_t(group)].add(t.arrived);
-        of_cell[cell * g + size_t(group)].add(t.arrived);
-        of_row[row * g + size_t(group)].add(t.arrived);
+        of_scene[size_t(group)].add(t);
+        of_block[block_of(cell) * g + size_t(group)].add(t);
+        of_cell[cell * g + size_t(group)].add(t);
+        of_row[row * g + size_t(group)].add(t);
     }
 
     factors_.assign(rows * size_t(shape_.words), 0);

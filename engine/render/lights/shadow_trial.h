@@ -11,6 +11,7 @@ struct ShadowTrial {
     Vec3 position, normal; // of the receiver; zero normal: light from all sides
     int32_t light;         // record
     bool arrived;
+    float transmittance = 1; // of blended surfaces on its way
 };
 
 } // namespace blush

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -42,6 +43,28 @@ TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
         }
     }
     EXPECT_GT(lit, 5);
+}
+
+TEST(PathLog, SaysHowMuchLightBlendedSurfacesLeave) {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.5f));
+    Material veil = lambert(0.f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.75f;
+    place(scene, floor_quad(9, 1), veil);
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = 4 * std::numbers::pi_v<float>;
+    place_light(scene, sun, aimed({0, 3, 0}, {0, -1, 0}));
+    scene.view = looking_down(1, 0.5f);
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.max_bounces = 1;
+    const std::string log = trace_sample(scene, settings, 3, 4, 0);
+    EXPECT_NE(log.find("contributes (2, 2, 2), dimmed to (0.5, 0.5, 0.5) over inf m"), std::string::npos) << log;
+    Vec3 logged;
+    ASSERT_TRUE(read_radiance(log, logged));
+    EXPECT_NEAR(logged.x, 0.5f, 1e-6f);
 }
 
 TEST(PathLog, MentionsSmoothEdges) {

@@ -81,6 +81,26 @@ TEST(ShadowCatcher, HasTheSharpShadowOfAPoint) {
         for (size_t c = 0; c < 3; ++c) ASSERT_EQ(f.rgba[4 * i + c], 0) << "a shadow is black, and the catcher is invisible";
 }
 
+// Without noise: one sample of each pixel has the plate's opacity.
+TEST(ShadowCatcher, HasTheThinShadowOfABlendedPlate) {
+    Stage stage(bulb());
+    Material veil = lambert(0.5f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.3f;
+    place(stage.scene, floor_quad(4), veil, at({0, plate_height - 0.05f, 0}));
+    place(stage.scene, floor_quad(4), veil, at({0, plate_height - 0.06f, 0}));
+    // A catcher that the light passes as well is no shadow.
+    make_shadow_catcher(stage.scene, place(stage.scene, floor_quad(4), veil, at({0, plate_height - 0.07f, 0})));
+    const Frame f = render(stage.scene, settings_for(48, 48, 1));
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 48; ++x) {
+            const Vec3d p = stage.on_floor(x + 0.5, y + 0.5, 48, 48);
+            const double reach = std::max(std::abs(p.x), std::abs(p.z));
+            if (std::abs(reach - 2 * double(plate_half)) < 0.12) continue;
+            ASSERT_NEAR(alpha_at(f, x, y), reach < 0.5 ? 1 : 1 - 0.7 * 0.7, 1e-5) << x << ' ' << y;
+        }
+}
+
 TEST(ShadowCatcher, WorksInRegionsAndAdaptiveRenders) {
     const Stage stage(bulb());
     RenderSettings settings = settings_for(48, 48, 32);

@@ -44,6 +44,23 @@ TEST(LightMeter, ReadsAPointAndASun) {
     EXPECT_TRUE(reads(reading(scene, floor_place), expected));
 }
 
+// Without noise.
+TEST(LightMeter, ReadsALampThroughBlendedSheets) {
+    Scene scene;
+    Material sheet = lambert(0.f);
+    sheet.alpha = Material::Alpha::blend;
+    sheet.opacity = 0.3f;
+    for (int i = 0; i < 3; ++i) place(scene, floor_quad(50, 0.5f + 0.1f * float(i)), sheet);
+    Light point;
+    point.intensity = 5;
+    place_light(scene, point, at({1, 2, 0.5f}));
+    const Vec3d to = Vec3d{1, 2, 0.5} - floor_place.position;
+    const double expected = 5 * to.y / std::pow(length(to), 3) * std::pow(1 - double(0.3f), 3);
+    const MeterReading r = reading(scene, floor_place, settings_for(1, 1, 1), 4);
+    EXPECT_TRUE(reads(r, expected));
+    EXPECT_LT(r.lux.high - r.lux.low, 1e-6 * expected);
+}
+
 struct LitPlace {
     Scene scene;
     double lux; // at floor_place

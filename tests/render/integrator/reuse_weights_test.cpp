@@ -45,7 +45,6 @@ template <class Hidden, class Tamper> std::array<Vec3d, size> received(const Hid
         reuse.rho_r[i] = float(rho.x), reuse.rho_g[i] = float(rho.y), reuse.rho_b[i] = float(rho.z);
         scratch->r[i] = rho.x * l.x, scratch->g[i] = rho.y * l.y, scratch->b[i] = rho.z * l.z;
         reuse.second_of[i] = i;
-        reuse.random[i] = 0;
     }
     ReuseBatch& batch = reuse.batch;
     seat_group(reuse, *scratch, batch, slots, size);

@@ -162,6 +162,25 @@ TEST(Kernels, GiveTheSameBitsOnASceneWithAllFeatures) {
     expect_same_bits_from_all_kernels(Compiled(scene));
 }
 
+// Shadow rays through many of them, and through window glass between them.
+TEST(Kernels, GiveTheSameBitsOnBlendedSurfaces) {
+    Scene scene = everything();
+    Material veil = lambert(0.7f);
+    veil.alpha = Material::Alpha::blend;
+    for (int i = 0; i < 12; ++i) {
+        veil.opacity = 0.07f * float(i + 1);
+        place(scene, floor_quad(1), veil, aimed({0.3f, 0.8f + 0.1f * float(i), 0}, {0.1f * float(i % 3), -0.3f, 1}));
+    }
+    expect_same_bits_from_all_kernels(Compiled(scene));
+    expect_same_bits_from_all_kernels(Compiled(scene, false, 16));
+    Material pane = glass(0, 1.5f);
+    pane.thickness = 0;
+    place(scene, floor_quad(2, 1.25f), pane);
+    const Compiled glazed(scene);
+    EXPECT_TRUE(glazed.scene.tables().panes && glazed.scene.tables().blends);
+    expect_same_bits_from_all_kernels(glazed);
+}
+
 TEST(Kernels, GiveTheSameBitsOnCoatsSheenAndFilms) {
     Scene scene = everything();
     int next = 0;

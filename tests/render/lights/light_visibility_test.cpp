@@ -61,6 +61,22 @@ template <class Arrives> std::vector<ShadowTrial> trials(const Arrives& arrives,
 
 constexpr Vec3 up{0, 1, 0}, down{0, -1, 0};
 
+// A share of a ray counts as a share of the rays.
+TEST(LightVisibility, CountsTheLightThatBlendedSurfacesLeave) {
+    int number = 0;
+    std::vector<ShadowTrial> dimmed = trials([](const Vec3&, const Vec3&, int32_t) { return true; }), blocked = dimmed;
+    for (size_t i = 0; i < dimmed.size(); ++i) {
+        if (dimmed[i].light != 1) continue;
+        dimmed[i].transmittance = 0.25f;
+        blocked[i].arrived = number++ % 4 == 0;
+    }
+    const LightVisibility a(dimmed, compiled().tables().lights), b(blocked, compiled().tables().lights);
+    const LightTables with_a = with(a), with_b = with(b);
+    const float plain = probability(compiled().tables().lights, {1, 0, 1}, up, 1), found = probability(with_a, {1, 0, 1}, up, 1);
+    EXPECT_LT(found, 0.8f * plain);
+    EXPECT_NEAR(found, probability(with_b, {1, 0, 1}, up, 1), 0.2f * found);
+}
+
 TEST(LightVisibility, PrefersLightsThatTheCellSees) {
     // Light 1 is seen from the left half only, light 2 from the right.
     const auto arrives = [](const Vec3& p, const Vec3&, int32_t light) { return light == 1 ? p.x < 0 : light == 2 ? p.x > 0 : true; };
