@@ -209,7 +209,7 @@ struct Accel::State {
         rtcReleaseDevice(device);
     }
     void add_spheres(SceneHandle& to, std::span<const AccelSphere> spheres);
-    void trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits) const;
+    void trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits, float* share = nullptr) const;
     void check_for_errors() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
             throw std::runtime_error(why_not_built(error, memory.bytes));
@@ -314,6 +314,7 @@ TraceContext make_context(bool coherent, bool instances, Blended blended) {
     rtcInitIntersectContext(&context.embree);
     if (coherent && !instances) context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.blended = blended;
+    context.chosen = nullptr;
     return context;
 }
 
@@ -327,9 +328,11 @@ template <class Trace> void by_packet_size(int size, const Trace& trace) {
 }
 } // namespace
 
-void Accel::State::trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits) const {
+void Accel::State::trace(const RayArrays& rays, int count, bool coherent, Blended blended, const HitArrays& hits, float* share) const {
     TraceContext context = make_context(coherent, !bottoms.empty(), blended);
-    by_packet_size(packet, [&](auto n) { intersect_packets<n>(scenes(), context, rays, count, hits); });
+    ChosenHits chosen;
+    if (blended == Blended::both) context.chosen = &chosen;
+    by_packet_size(packet, [&](auto n) { intersect_packets<n>(scenes(), context, rays, count, hits, share); });
     // Embree numbers instances after the flat geometries
     const auto first = int32_t(first_instance), sphere = int32_t(first_sphere);
     if (first > 0)
@@ -350,6 +353,11 @@ void Accel::intersect(const RayArrays& rays, int count, bool coherent, const Hit
 
 void Accel::intersect_unblended(const RayArrays& rays, int count, bool coherent, const HitArrays& hits) const {
     state_->trace(rays, count, coherent, Blended::ignored, hits);
+}
+
+void Accel::intersect_blended(const RayArrays& rays, int count, const HitArrays& hits, float* share) const {
+    // Not as coherent packets: Embree 3.13 reports hits of those more than once (trace_occluded() in packets.h).
+    state_->trace(rays, count, false, Blended::both, hits, share);
 }
 
 void Accel::occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const {

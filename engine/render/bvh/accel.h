@@ -54,6 +54,10 @@ public:
     // blocked[i] = 1 if anything lies within far_distance of ray i.
     void occluded(const RayArrays& rays, int count, bool coherent, uint8_t* blocked) const;
 
+    // As intersect(), and share[i] of the light of the background passes along ray i: the product of the transmittances of all blended
+    // surfaces on it, also those behind the one that stops it; 0 if it ends on anything else. Always by the BVH.
+    void intersect_blended(const RayArrays& rays, int count, const HitArrays& hits, float* share) const;
+
     // For shadow rays in scenes with blended surfaces (SceneTables::blends), always by the BVH. At points that are neither opaque nor
     // clear, these rays are not stopped by chance:
     // share[i] of the light passes along ray i within far_distance: the product of the transmittances, 1 - opacity, of those points,

@@ -49,7 +49,6 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
         copy(ray.tfar, rays.far_distance);
     else
         std::fill_n(ray.tfar, N, infinity);
-    if (rays.random) std::memcpy(ray.id, rays.random + first, N * sizeof(uint32_t));
     // tnear is just above 0, because the watertight test includes 0: a ray must not hit the surface that it starts on, for
     // example when the camera lies in it.
     std::fill_n(ray.tnear, N, std::numeric_limits<float>::min());
@@ -63,17 +62,21 @@ template <int N, class Ray> void load_rays(Ray& ray, const RayArrays& rays, int 
 
 // Call after load_rays.
 template <int N, class Ray> void begin_packet(TraceContext& context, Ray& ray, const RayArrays& rays, int first) {
-    if (context.blended == Blended::by_chance) return;
+    if (context.blended == Blended::by_chance && !rays.random) return;
     std::iota(ray.id, ray.id + N, 0u);
+    context.random = rays.random ? rays.random + first : nullptr;
+    context.index = rays.index ? rays.index + first : nullptr;
+    if (context.blended == Blended::by_chance) return;
     std::fill_n(context.depth, N, 0u);
     std::fill_n(context.limit, N, opaque_depth);
-    context.random = rays.random ? rays.random + first : nullptr;
-    if (!context.random || context.blended != Blended::attenuating) return;
+    if (context.chosen) std::fill_n(context.chosen->t, N, infinity);
+    if (!context.random || context.blended == Blended::ignored) return;
     for (int i = 0; i < N; ++i) {
         // A ray that goes on behind a pane has the same random number, and needs an independent decision there.
         const uint32_t place = pcg_hash(std::bit_cast<uint32_t>(ray.org_x[i])) ^ pcg_hash(std::bit_cast<uint32_t>(ray.org_y[i]) + 1) ^
                                pcg_hash(std::bit_cast<uint32_t>(ray.org_z[i]) + 2);
-        context.limit[i] = roulette_limit(1 - unit_float<float>(pcg_hash(context.random[i] ^ pcg_hash(place))));
+        const uint32_t sample = context.index ? pcg_hash(context.index[i]) : 0;
+        context.limit[i] = roulette_limit(1 - unit_float<float>(pcg_hash(context.random[i] ^ pcg_hash(place + sample))));
     }
 }
 
@@ -131,8 +134,25 @@ template <int N> void intersect_area_lights(const TracedScenes& scenes, TraceCon
     }
 }
 
-template <int N>
-void intersect_packets(const TracedScenes& scenes, TraceContext& context, const RayArrays& rays, int count, const HitArrays& hits) {
+// The share of the background; the chosen hits become those of q unless it has nearer ones.
+template <int N> void end_at_chosen(const TraceContext& context, auto& q, float* share) {
+    const ChosenHits& c = *context.chosen;
+    for (int i = 0; i < N; ++i) {
+        const bool escapes = q.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID && context.depth[i] <= context.limit[i];
+        share[i] = escapes ? transmittance_of(std::min(context.depth[i], roulette_depth)) : 0.f;
+        if (!(c.t[i] < infinity && c.t[i] <= q.ray.tfar[i])) continue;
+        q.ray.tfar[i] = c.t[i];
+        q.hit.u[i] = c.u[i];
+        q.hit.v[i] = c.v[i];
+        q.hit.geomID[i] = c.geometry[i];
+        q.hit.instID[0][i] = c.instance[i];
+        q.hit.primID[i] = c.triangle[i];
+    }
+}
+
+// `share`: of the background, by ray, for Blended::both; else null.
+template <int N> void intersect_packets(const TracedScenes& scenes, TraceContext& context, const RayArrays& rays, int count,
+                                        const HitArrays& hits, float* share) {
     alignas(64) int valid[N];
     alignas(64) typename Packet<N>::RayHit q;
     for (int k = 0; k < count; k += N) {
@@ -143,6 +163,7 @@ void intersect_packets(const TracedScenes& scenes, TraceContext& context, const 
         valid_lanes<N>(valid, q.ray, count - k, scenes.reach);
         Packet<N>::intersect(valid, scenes.top, &context.embree, &q);
         if (scenes.area_lights) intersect_area_lights<N>(scenes, context, valid, q);
+        if (share) end_at_chosen<N>(context, q, share + k);
         const auto copy = [&](auto* to, const auto* from) { std::memcpy(to + k, from, N * sizeof(float)); };
         copy(hits.t, q.ray.tfar);
         copy(hits.u, q.hit.u);

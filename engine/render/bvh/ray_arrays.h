@@ -17,6 +17,7 @@ struct RayArrays {
     const uint32_t* random;    // per-ray random number for what is met by chance; may be null if the scene has no blended surfaces
     uint32_t mask = other_ray_mask;
     const uint32_t* masks = nullptr; // per ray; replaces `mask` if set
+    const uint32_t* index = nullptr; // per ray: rays of one `random` and other indices are stratified at each blended triangle; null: 0
 };
 struct HitArrays {
     float *t, *u, *v;  // t in units of the direction's length; u, v: weights of vertices 1 and 2

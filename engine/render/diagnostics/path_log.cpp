@@ -79,13 +79,15 @@ struct Logger {
         return dimmed ? "dimmed to " + rgb(reached) : "unoccluded";
     }
 
-    void outcome(int bounce, const Step<float>& step, const Vec3& reached) {
+    void outcome(const ReplayedVertex& vertex) {
+        const Step<float>& step = vertex.step;
         const StepWeights<float>& w = step.weights;
+        if (has_light<float>(vertex.past)) line("  background contributes {} past blended surfaces", rgb(vertex.past));
         if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
-                 visibility(step, reached), step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
-        const bool roulette = bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
+                 visibility(step, vertex.arrived), step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+        const bool roulette = vertex.bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1) line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.non_finite) {
             line("  non-finite throughput {}  pdf {:.6g}", rgb(step.next.beta), step.next.pdf);
@@ -124,7 +126,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     workers.run([&] {
         const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, scratch, [&](const ReplayedVertex& vertex) {
             log.vertex(vertex.bounce, vertex.path, vertex.hit);
-            log.outcome(vertex.bounce, vertex.step, vertex.arrived);
+            log.outcome(vertex);
             return true;
         });
         if (settings.reuse == reuse_auto)

@@ -9,13 +9,14 @@
 
 namespace blush {
 
-// A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded.
+// A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded. `past`:
+// of the background behind blended surfaces, one of which stopped the path.
 struct ReplayedVertex {
     int bounce = 0;
     Path<float> path;
     Hit<float> hit;
     Step<float> step;
-    Vec3 arrived;
+    Vec3 arrived, past{0, 0, 0};
 };
 
 // Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
@@ -34,6 +35,9 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         path.dispersed = now->dispersed[0];
         ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
+        const SeenBackground<float> background = seen_background<float>(*context.scene, scratch, 0, true);
+        vertex.past = light_past_blended<s, float>(context, vertex.path, bounce, background);
+        if (background.seen && !background.stopped) vertex.step.emitted = vertex.step.emitted * background.share;
         shade_paths<s, float>(context, scratch, *now, *next, bounce);
         const Vec3d before = radiance();
         connect_paths<s, float>(context, scratch, bounce);

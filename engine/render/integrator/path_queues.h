@@ -80,15 +80,23 @@ template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
             load<Int<F>>(h.triangle + k)};
 }
 
-// Closest hits of the queue's path rays. `random` is written if some surface is blended.
-template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h) {
+// The same for rays of path samples that are stratified (RayArrays::index).
+template <class F> UInt<F> opacity_key(const UInt<F>& key, uint32_t salt) { return key ^ pcg_hash(salt * 0x9e3779b9u + 1u); }
+
+// Closest hits of the queue's path rays. `random` is written if some surface is blended, and `background_share` if it is set.
+template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h,
+                                   float* background_share = nullptr) {
     const bool blends = context.scene->blends;
     if (blends)
-        for (int k = 0; k < q.size; k += width<F>)
-            store(random + k, opacity_random<F>(load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k), uint32_t(2 * bounce)));
-    const RayArrays rays{
+        for (int k = 0; k < q.size; k += width<F>) store(random + k, opacity_key<F>(load<UInt<F>>(q.key + k), uint32_t(2 * bounce)));
+    RayArrays rays{
         q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
-    trace_closest<F>(*context.accel, rays, q.size, bounce == 0, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+    if (blends) rays.index = q.index;
+    const HitArrays hits{h.t, h.u, h.v, h.geometry, h.instance, h.triangle};
+    if (background_share)
+        context.accel->intersect_blended(rays, q.size, hits, background_share);
+    else
+        trace_closest<F>(*context.accel, rays, q.size, bounce == 0, hits);
 }
 
 inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue& q) {

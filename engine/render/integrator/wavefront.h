@@ -2,6 +2,7 @@
 // shadow rays, and repeat with the surviving paths, compacted in order.
 #pragma once
 
+#include "render/integrator/blended_background.h"
 #include "render/integrator/estimator.h"
 #include "render/integrator/group_sums.h"
 #include "render/integrator/path_queues.h"
@@ -48,6 +49,24 @@ template <class F> void add_light(TileScratch& scratch, const int32_t* slots, co
         scratch.g[slot] += double(lane(radiance.y, i));
         scratch.b[slot] += double(lane(radiance.z, i));
     });
+}
+
+// Adds the light that the rays of paths k, k + 1, ... found. Light of the background is dimmed by blended surfaces.
+template <Features S, class F> [[gnu::always_inline]] inline void add_emission(const KernelContext& context, TileScratch& scratch,
+                                                                               const int32_t* slots, int k, const Path<F>& path, int bounce,
+                                                                               const Mask<F>& active, Step<F>& step) {
+    if constexpr (S.has(Feature::environment) || S.has(Feature::suns)) {
+        const SeenBackground<F> background = seen_background<F>(*context.scene, scratch, k, active);
+        if (sees_past_blended(*context.scene)) {
+            step.emitted = select<F>(background.seen && !background.stopped, step.emitted * background.share, step.emitted);
+            add_light<F>(scratch, slots, light_past_blended<S, F>(context, path, bounce, background), background.stopped);
+        }
+        if (scratch.groups && any(background.seen))
+            add_background_by_group<S, F>(context, *scratch.groups, path, bounce, background.share, background.seen);
+    }
+    if (!any(step.emits)) return;
+    add_light<F>(scratch, slots, step.emitted, step.emits);
+    if (scratch.groups) add_emission_by_group<F>(context, *scratch.groups, scratch.hits, k, path, step);
 }
 
 template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, const Step<F>& step, const Mask<F>& active, int bounce) {
@@ -109,7 +128,9 @@ template <Features S, class F>
 // Traces the path rays of `now`. In scenes with panes, overwrites `rest` and changes the throughput of paths that pass panes.
 template <Features S, class F>
 void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
-    trace_rays<F>(context, scratch.random, now, bounce, scratch.hits);
+    const bool sees_past = sees_past_blended(*context.scene);
+    if (sees_past && !scratch.background_share) scratch.background_share = std::make_unique<Column<float>>();
+    trace_rays<F>(context, scratch.random, now, bounce, scratch.hits, sees_past ? scratch.background_share->data : nullptr);
     if constexpr (S.has(Feature::transmission))
         if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);
 }
@@ -126,7 +147,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
         if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
-        const Step<F> step =
+        Step<F> step =
             scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active, light_timer.next());
         Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
         if constexpr (S.has(Feature::transmission))
@@ -139,8 +160,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             store_reuse_vertex<F>(*scratch.reuse, now, k, bounce, reuse_vertex);
         }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
-        if (any(step.emits)) add_light<F>(scratch, now.slot + k, step.emitted, step.emits);
-        if (scratch.groups && any(step.emits)) add_emission_by_group<S, F>(context, *scratch.groups, scratch.hits, k, path, step, bounce);
+        add_emission<S, F>(context, scratch, now.slot + k, k, path, bounce, active, step);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
         if (any(step.connects)) {
             if (blends)

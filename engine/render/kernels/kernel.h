@@ -98,6 +98,7 @@ struct TileScratch {
     std::unique_ptr<ReuseColumns> reuse;              // allocated by the first kernel with path reuse
     std::unique_ptr<RouletteColumns> roulette;        // null: not needed
     std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes
+    std::unique_ptr<Column<float>> background_share;  // by path of the queue; allocated by the first kernel that needs it
     std::unique_ptr<std::vector<ShadowTrial>> trials; // of the tile's shadow rays, accumulated; null: not recorded
     std::unique_ptr<EscapeTrials> escapes;            // null: not recorded
     std::unique_ptr<GuidingTrials> guiding;           // null: not recorded; not with path reuse
