@@ -47,7 +47,17 @@ inline bool any(WideMask m) { return stdx::any_of(m); }
 inline bool all(WideMask m) { return stdx::all_of(m); }
 // Bit i is lane i.
 inline unsigned bits(bool m) { return m; }
-inline unsigned bits(WideMask m) { return unsigned(m.__to_bitset().to_ulong()); }
+inline unsigned bits(WideMask m) {
+    const auto mask = m.__to_bitset().to_ulong();
+#ifdef __AVX512F__
+    // GCC 12 may store a mask as 16 bits and load it as 32, with what lies behind it on the stack. This instruction clears the others.
+    unsigned all;
+    asm("kmovw %1, %0" : "=r"(all) : "k"(static_cast<unsigned short>(mask)));
+    return all;
+#else
+    return unsigned(mask);
+#endif
+}
 inline int count(bool m) { return m; }
 inline int count(WideMask m) { return std::popcount(bits(m)); }
 // Converts a mask of integers to a mask of F.
