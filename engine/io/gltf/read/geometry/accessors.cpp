@@ -150,7 +150,7 @@ Result<std::span<const uint8_t>> buffer_view_bytes(const GltfContext& context, i
     if (view.buffer < 0 || size_t(view.buffer) >= model.buffers.size())
         return context.error(fmt::format("buffer {} does not exist; there are {}", view.buffer, model.buffers.size()),
                              fmt::format("bufferViews[{}]", index));
-    const std::span<const uint8_t> data = model.buffers[size_t(view.buffer)].data;
+    const std::span<const uint8_t> data = context.source.buffer_bytes(size_t(view.buffer));
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
         return context.error(
             fmt::format("offset {} and length {} reach beyond the buffer's {} bytes", view.byteOffset, view.byteLength, data.size()),
