@@ -286,6 +286,36 @@ TEST(GltfParallel, ImagesThatAreDecodedTogetherHaveALimitedSize) {
     EXPECT_EQ(concurrent_decode_bytes(uint64_t(1) << 50), int64_t(1) << 30);
 }
 
+// What a first image needs most. The file has its images in the opposite order.
+TEST(GltfParallel, ColourAndSmallImagesAreDecodedFirst) {
+    GltfBuilder b;
+    b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
+    for (unsigned i = 0; i < 4; ++i) add_texture(b, noisy_png(i % 2 == 0 ? 128 : 32, i));
+    for (const int color : {2, 3})
+        b.add("materials",
+              {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", color}}}}}, {"normalTexture", {{"index", color - 2}}}});
+    const TempFolder folder;
+    write_bytes(folder / "scene.glb", b.glb());
+    const auto source = load_gltf(folder / "scene.glb");
+    ASSERT_TRUE(source) << error_text(source);
+    std::vector<int> order;
+    std::function<void()> look = [] {};
+    ImportOptions options;
+    options.threads = 1;
+    options.on_preview_scene = [](const ImportedScene&) {};
+    options.on_progress = [&](double, const std::string&) { look(); };
+    ImportReport report;
+    const GltfContext context{*source, options, report};
+    auto decoding = ImageDecoding::begin(context, std::vector{0, 1, 2, 3});
+    ASSERT_TRUE(decoding) << error_text(decoding);
+    look = [&] {
+        for (int i = 0; i < 4; ++i)
+            if (decoding->available(i) && std::ranges::find(order, i) == order.end()) order.push_back(i);
+    };
+    ASSERT_TRUE(decoding->finish());
+    EXPECT_EQ(order, (std::vector{3, 2, 1, 0}));
+}
+
 TEST(GltfParallel, NoPreviewWithoutTextures) {
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
