@@ -170,6 +170,8 @@ struct ImageDecoding::State {
 
     std::array<std::vector<size_t>, 2> by_need; // files below the share of memory of a thread, and larger ones
     std::array<std::atomic<size_t>, 2> next_needed{};
+    std::atomic<size_t> colors_left = 0;
+    bool colors_shown = false;
     std::vector<size_t> file_of;  // by image; files.size(): none
     std::vector<size_t> previews; // files to be decoded at an eighth of their size first
     std::atomic<size_t> next_preview = 0;
@@ -201,6 +203,8 @@ struct ImageDecoding::State {
     // Colour before other data, since it is most of what one sees, and then small images first, so that many are there early.
     void order_by_need(int64_t share) {
         for (size_t f = 0; f < files.size(); ++f) by_need[is_large(f, share)].push_back(f);
+        colors_left = size_t(std::ranges::count_if(files, &Encoded::is_color));
+        colors_shown = colors_left == 0;
         for (std::vector<size_t>& order : by_need)
             std::ranges::stable_sort(order, {}, [&](size_t f) { return std::pair(!files[f].is_color, files[f].info.bytes()); });
     }
@@ -215,10 +219,13 @@ struct ImageDecoding::State {
         Encoded& file = files[index];
         if (!file.decoded) decode(context, file);
         if (*file.decoded) make_available(index, **file.decoded);
+        if (file.is_color) --colors_left;
         ++done;
         if (!is_reporting()) return;
         report();
-        if (done < files.size() && Clock::now() >= next_shown) show();
+        const bool all_colors = colors_left == 0 && !colors_shown;
+        colors_shown |= all_colors;
+        if (done < files.size() && (all_colors || Clock::now() >= next_shown)) show();
     }
     bool is_reporting() const { return waited_for && std::this_thread::get_id() == reporter; }
     // Previews of all images come before the first image, whichever thread begins. True if this thread has made some.

@@ -30,7 +30,8 @@ public:
     bool is_expected(int image) const;
     bool is_done() const;
     // Waits for the remaining images and reports progress from 0.6 to 1. Calls on_more() on this thread when the images of
-    // available() have become more, with pauses. An image that cannot be decoded is a warning. Errors: cancelled.
+    // available() have become more, with pauses, and when all of colour are there. An image that cannot be decoded is a warning. Errors:
+    // cancelled.
     Result<void> finish(const std::function<void()>& on_more = {});
     // The image as far as it is known: decoded, at an eighth of its size, or null.
     ImagePtr available(int index) const;
