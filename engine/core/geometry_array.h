@@ -3,13 +3,15 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <vector>
 
 namespace blush {
 
 // Uses its place if exactly the expected number of elements is requested, else the heap. Copied arrays go to the heap, moved ones
-// stay in place.
+// stay in place. Elements that come without a value, as by resize(n), stay unset: many threads fill large arrays, and the one that
+// resizes them would touch all their memory first.
 template <class T> class PlacedAllocator {
 public:
     using value_type = T;
@@ -26,6 +28,7 @@ public:
     void deallocate(T* p, size_t n) {
         if (p != place_) std::allocator<T>().deallocate(p, n);
     }
+    template <class U> void construct(U* element) { ::new (static_cast<void*>(element)) U; }
     bool operator==(const PlacedAllocator& other) const { return place_ == other.place_; }
 
 private:

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace blush {
 namespace {
+
+bool is_finite(const Vec3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+Vec3d smaller(const Vec3d& a, const Vec3d& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3d larger(const Vec3d& a, const Vec3d& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 void include_parts(const std::vector<MeshPart>& parts, const Affined& world_from_mesh, Bounds& bounds) {
     for (const MeshPart& part : parts) {
@@ -26,21 +31,34 @@ void include_node(const Scene& scene, WorldTransforms& transforms, Id<Node> id, 
 } // namespace
 
 void Bounds::include(const Vec3d& p) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
+    if (!is_finite(p)) return;
     if (empty) {
         low = high = p;
         empty = false;
         return;
     }
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    low = smaller(low, p);
+    high = larger(high, p);
 }
 
 void Bounds::include(const Bounds& box, const Affined& world_from_box) {
     if (box.empty) return;
+    // A corner is the sum of one product for each axis. Sums round monotonically, so the sum of the smaller products is the smallest
+    // corner to the bit. There may be a million boxes.
+    const Affined& m = world_from_box;
+    const auto products = [](const Vec3d& axis, double a, double b) { return std::pair(axis * a, axis * b); };
+    const auto [x0, x1] = products(m.x, box.low.x, box.high.x);
+    const auto [y0, y1] = products(m.y, box.low.y, box.high.y);
+    const auto [z0, z1] = products(m.z, box.low.z, box.high.z);
+    const Vec3d lowest = smaller(x0, x1) + smaller(y0, y1) + smaller(z0, z1) + m.t;
+    const Vec3d highest = larger(x0, x1) + larger(y0, y1) + larger(z0, z1) + m.t;
+    if (is_finite(lowest) && is_finite(highest)) {
+        include(lowest);
+        include(highest);
+        return;
+    }
     const Vec3d corner[2] = {box.low, box.high};
-    for (int k = 0; k < 8; ++k)
-        include(transform_point(world_from_box, Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}));
+    for (int k = 0; k < 8; ++k) include(transform_point(m, Vec3d{corner[k & 1].x, corner[k >> 1 & 1].y, corner[k >> 2 & 1].z}));
 }
 
 Vec3d Bounds::center() const { return (low + high) * 0.5; }

@@ -171,6 +171,26 @@ TEST(WorldBounds, IgnoreNonFiniteValues) {
     EXPECT_EQ(b.radius(), 0);
 }
 
+// To the bit, also where a corner overflows.
+TEST(WorldBounds, OfABoxAreThoseOfItsCorners) {
+    std::mt19937 rng(7);
+    std::normal_distribution<double> n;
+    for (int i = 0; i < 2000; ++i) {
+        const double size = i % 4 == 0 ? 1e308 : 1;
+        const auto vector = [&](double scale) { return Vec3d{n(rng) * scale, n(rng) * scale, n(rng) * scale}; };
+        const Affined m{vector(size), vector(1), vector(1), vector(size)};
+        Bounds box, corners, all;
+        for (int k = 0; k < 2; ++k) box.include(vector(3));
+        for (int k = 0; k < 8; ++k)
+            corners.include(
+                transform_point(m, Vec3d{k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y, k & 4 ? box.high.z : box.low.z}));
+        all.include(box, m);
+        EXPECT_EQ(all.empty, corners.empty);
+        EXPECT_EQ(all.low, corners.low) << i;
+        EXPECT_EQ(all.high, corners.high) << i;
+    }
+}
+
 // Every corner of the box is inside the image, and the sphere around it touches the narrower border.
 TEST(Framed, ShowsTheWholeBounds) {
     std::mt19937 rng(5);

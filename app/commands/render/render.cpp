@@ -22,12 +22,15 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace blush {
@@ -120,10 +123,13 @@ bool sees_nothing(const Scene& scene, const RenderSettings& settings, const RayC
     return std::ranges::none_of(frame.depth, [](float depth) { return depth > 0; });
 }
 
+// Of this program alone: ru_maxrss starts with what the process held that started it. 0 without /proc.
 double peak_memory_mb() {
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return double(usage.ru_maxrss) / 1024;
+    constexpr std::string_view key = "VmHWM:"; // kB
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(key)) return std::strtod(line.c_str() + key.size(), nullptr) / 1024;
+    return 0;
 }
 
 std::string loop_note(const LoopProgress& p) {

@@ -1,13 +1,12 @@
 #include "scene/geometry/arena_geometry.h"
 
-#include "core/geometry_arena.h"
-
 namespace blush {
 namespace {
 
 // Geometry::storage of meshes in the arena.
 struct ArenaStorage {
     ArenaRangePtr vertices, indices;
+    size_t vertex_count = 0, index_count = 0; // that it has room for
 };
 
 // Calls visit(array, attribute) for each attribute that the mesh has; stops and returns false at the first false.
@@ -29,17 +28,49 @@ template <class T> GeometryArray<T> placed(const GeometryArray<T>& array, T* bas
 template <class T> T* base_of(const GeometryArray<T>&, Attribute attribute) { return attribute_base<T>(attribute); }
 
 // Ranges for the arrays of a large mesh; none for a small one, or if the arena is full.
-std::optional<ArenaStorage> reserve_for(const Geometry& g) {
-    if (g.positions.size() < min_arena_vertices) return {};
-    if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return {};
-    ArenaStorage storage{reserve_arena_range(ArenaKind::vertices, g.positions.size()),
-                         reserve_arena_range(ArenaKind::indices, g.indices.size())};
+std::optional<ArenaStorage> reserve_ranges(size_t vertices, size_t indices) {
+    if (vertices < min_arena_vertices) return {};
+    ArenaStorage storage{reserve_arena_range(ArenaKind::vertices, vertices), reserve_arena_range(ArenaKind::indices, indices), vertices,
+                         indices};
     return storage.vertices && storage.indices ? std::optional(std::move(storage)) : std::nullopt;
+}
+std::optional<ArenaStorage> reserve_for(const Geometry& g) {
+    if (!all_attributes(g, [](const auto& array, Attribute attribute) { return base_of(array, attribute) != nullptr; })) return {};
+    return reserve_ranges(g.positions.size(), g.indices.size());
+}
+
+// `base`: of the arena, null if the array is to be on the heap.
+template <class T> GeometryArray<T> unset_at(T* base, const ArenaRangePtr& range, size_t count) {
+    GeometryArray<T> array(base ? PlacedAllocator<T>(base + range->first(), count) : PlacedAllocator<T>());
+    array.reserve(base ? count : count + 1);
+    array.resize(count);
+    return array;
 }
 
 } // namespace
 
+std::shared_ptr<const void> reserve_in_arena(size_t vertices, size_t indices) {
+    std::optional<ArenaStorage> storage = reserve_ranges(vertices, indices);
+    return storage ? std::make_shared<const ArenaStorage>(*std::move(storage)) : nullptr;
+}
+
+template <class T> GeometryArray<T> unset_array(const std::shared_ptr<const void>& storage, Attribute attribute, size_t count) {
+    const auto* ranges = static_cast<const ArenaStorage*>(storage.get());
+    const bool fits = ranges && ranges->vertex_count == count;
+    return fits ? unset_at(attribute_base<T>(attribute), ranges->vertices, count) : unset_at<T>(nullptr, {}, count);
+}
+template GeometryArray<Vec2> unset_array(const std::shared_ptr<const void>&, Attribute, size_t);
+template GeometryArray<Vec3> unset_array(const std::shared_ptr<const void>&, Attribute, size_t);
+template GeometryArray<Vec4> unset_array(const std::shared_ptr<const void>&, Attribute, size_t);
+
+GeometryArray<uint32_t> unset_indices(const std::shared_ptr<const void>& storage, size_t count) {
+    const auto* ranges = static_cast<const ArenaStorage*>(storage.get());
+    const bool fits = ranges && ranges->index_count == count;
+    return fits ? unset_at(index_base(), ranges->indices, count) : unset_at<uint32_t>(nullptr, {}, count);
+}
+
 void move_to_arena(Geometry& g) {
+    if (arena_offsets(g)) return;
     std::optional<ArenaStorage> storage = reserve_for(g);
     if (!storage) return;
     all_attributes(g, [&](auto& array, Attribute attribute) {

@@ -1,5 +1,6 @@
 #include "io/gltf/check/lint.h"
 
+#include "core/for_ranges.h"
 #include "core/math.h"
 #include "io/gltf/write/document.h"
 #include "scene/affine.h"
@@ -86,16 +87,20 @@ void report_units(const GltfContext& context, const Scene& scene, const GltfIndi
 }
 
 void report_geometry(const GltfContext& context, const Geometry& g, const std::string& where) {
-    size_t flat = 0;
-    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
-        const Vec3d a = to_double(g.positions[g.indices[i]]);
-        const Vec3d normal = cross(to_double(g.positions[g.indices[i + 1]]) - a, to_double(g.positions[g.indices[i + 2]]) - a);
-        flat += !(dot(normal, normal) > 0);
-    }
+    const unsigned threads = context.options.threads;
+    const size_t flat = count_in_ranges(g.triangle_count(), threads, [&](size_t t) {
+        const uint32_t* const corner = &g.indices[3 * t];
+        const Vec3d a = to_double(g.positions[corner[0]]);
+        const Vec3d normal = cross(to_double(g.positions[corner[1]]) - a, to_double(g.positions[corner[2]]) - a);
+        return !(dot(normal, normal) > 0);
+    });
     if (flat > 0) context.warn(fmt::format("{} of {} triangles have no area and cannot be seen", flat, g.triangle_count()), where);
-    const auto odd = std::ranges::count_if(g.normals, [](const Vec3& n) { return !is_unit(to_double(n)); });
+    const size_t odd = count_in_ranges(g.normals.size(), threads, [&](size_t i) { return !is_unit(to_double(g.normals[i])); });
     if (odd > 0) context.warn(fmt::format("{} of {} normals are not of unit length; they are normalised", odd, g.normals.size()), where);
-    const auto stretched = std::ranges::count_if(g.tangents, [](const Vec4& t) { return !is_unit({t.x, t.y, t.z}); });
+    const size_t stretched = count_in_ranges(g.tangents.size(), threads, [&](size_t i) {
+        const Vec4& t = g.tangents[i];
+        return !is_unit({t.x, t.y, t.z});
+    });
     if (stretched > 0)
         context.warn(fmt::format("{} of {} tangents are not of unit length; they are normalised", stretched, g.tangents.size()), where);
 }

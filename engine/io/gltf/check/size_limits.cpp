@@ -33,7 +33,7 @@ double decoded_bytes(const GltfContext& context, const tinygltf::Primitive& prim
 Result<void> check_size_limits(const GltfContext& context, const std::vector<int>& nodes) {
     const tinygltf::Model& model = context.model();
     std::vector<bool> counted(model.meshes.size());
-    double asked = 0, there = 0;
+    double asked = 0;
     for (const int node : nodes) {
         const int mesh = model.nodes[size_t(node)].mesh;
         if (mesh < 0 || size_t(mesh) >= counted.size() || counted[size_t(mesh)]) continue;
@@ -44,7 +44,7 @@ Result<void> check_size_limits(const GltfContext& context, const std::vector<int
         for (const tinygltf::AnimationSampler& sampler : animation.samplers)
             asked += bytes_of(context, sampler.input) + bytes_of(context, sampler.output);
     for (const tinygltf::Skin& skin : model.skins) asked += bytes_of(context, skin.inverseBindMatrices);
-    for (const tinygltf::Buffer& buffer : model.buffers) there += double(buffer.data.size());
+    const double there = context.source.bytes_in_buffers();
     if (asked <= free_bytes + max_decoded_ratio * there) return {};
     return context.error(
         fmt::format("its meshes and animations need {:.0f} MB when decoded, but its buffers have only {:.3g} MB", asked / 1e6, there / 1e6),

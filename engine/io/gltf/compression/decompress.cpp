@@ -8,7 +8,7 @@ namespace blush {
 
 Result<void> decompress(GltfSource& source, const ImportOptions& options, ImportReport& report) {
     const GltfContext context{source, options, report};
-    DecompressionLimit room(source.model);
+    DecompressionLimit room(source);
     if (const auto ok = decompress_meshopt(source, context, room); !ok) return ok;
     return decompress_draco(source, context, room);
 }

@@ -4,10 +4,6 @@
 
 namespace blush {
 
-DecompressionLimit::DecompressionLimit(const tinygltf::Model& model) {
-    for (const tinygltf::Buffer& buffer : model.buffers) packed_ += double(buffer.data.size());
-}
-
 Result<void> DecompressionLimit::take(const GltfContext& context, double bytes, const char* where) {
     constexpr double free_bytes = 512e6, max_decompression_ratio = 128; // scans reach a ratio of 40, flat grids far more
     taken_ += bytes;

@@ -9,8 +9,8 @@ namespace blush {
 // memory.
 class DecompressionLimit {
 public:
-    // `model` must not be decompressed yet.
-    explicit DecompressionLimit(const tinygltf::Model& model);
+    // `source` must not be decompressed yet.
+    explicit DecompressionLimit(const GltfSource& source) : packed_(source.bytes_in_buffers()) {}
     // Reserves bytes. Errors: the limit is exceeded.
     Result<void> take(const GltfContext& context, double bytes, const char* where);
 

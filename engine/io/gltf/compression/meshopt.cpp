@@ -62,7 +62,7 @@ Result<Stream> read_stream(const GltfContext& context, const GltfObject& extensi
     const auto& buffers = context.model().buffers;
     if (buffer < 0 || size_t(buffer) >= buffers.size())
         return context.error(fmt::format("buffer {} does not exist; there are {}", buffer, buffers.size()), extension.where());
-    const std::span<const uint8_t> bytes = buffers[size_t(buffer)].data;
+    const std::span<const uint8_t> bytes = context.source.buffer_bytes(size_t(buffer));
     if (offset < 0 || length < 1 || uint64_t(offset) > bytes.size() || uint64_t(length) > bytes.size() - uint64_t(offset))
         return context.error(fmt::format("offset {} and length {} reach beyond the buffer's {} bytes", offset, length, bytes.size()),
                              extension.where());

@@ -69,6 +69,11 @@ bool has_strange_data(const ParsedGltf& object) {
 
 } // namespace
 
+void set_placeholder(nlohmann::json& buffer) {
+    buffer["uri"] = "data:application/octet-stream;base64,AA==";
+    buffer["byteLength"] = 1;
+}
+
 std::optional<nlohmann::json> parser_compatible(const nlohmann::json& root) {
     bool refused = false;
     const std::vector<bool> placeholders = placeholder_buffers(root);
@@ -80,12 +85,8 @@ std::optional<nlohmann::json> parser_compatible(const nlohmann::json& root) {
     });
     if (!refused) return {};
     nlohmann::json changed = root;
-    for (size_t i = 0; i < placeholders.size(); ++i) {
-        if (!placeholders[i]) continue;
-        ParsedGltf& buffer = changed["buffers"][i];
-        buffer["uri"] = "data:application/octet-stream;base64,AA==";
-        buffer["byteLength"] = 1;
-    }
+    for (size_t i = 0; i < placeholders.size(); ++i)
+        if (placeholders[i]) set_placeholder(changed["buffers"][i]);
     each(changed, "bufferViews", [&](ParsedGltf& view) {
         if (lacks_buffer(root, view)) view["buffer"] = gltf_member(extension(view, meshopt_extension), "buffer");
     });

@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "io/gltf/compression/parser_compatible.h"
 #include "io/gltf/read/json.h"
+#include "io/gltf/read/json_members.h"
 #include "io/gltf/read/uri.h"
 
 #include <nlohmann/json.hpp>
@@ -78,14 +79,39 @@ nlohmann::json without_payloads(nlohmann::json root) {
     return root;
 }
 
-// The file converted for the parser, if it would reject the original.
-std::optional<std::vector<uint8_t>> without_packed_references(const nlohmann::json& root, const std::vector<uint8_t>& file, bool binary) {
-    const std::optional<nlohmann::json> changed = parser_compatible(root);
+// The bytes of buffer 0 if the parser would do nothing but copy them, and copying costs more than writing the JSON again: a large
+// binary chunk that is the only buffer without a URI. Else empty.
+std::span<const uint8_t> large_binary(const nlohmann::json& root, std::span<const uint8_t> chunk, size_t json_bytes) {
+    constexpr size_t bytes_per_json_byte = 16;
+    if (chunk.size() / bytes_per_json_byte < json_bytes) return {};
+    const ParsedGltf& buffers = gltf_member(root, "buffers");
+    for (size_t i = 0; i < buffers.size(); ++i) {
+        const ParsedGltf& uri = gltf_member(gltf_item(root, "buffers", i), "uri");
+        if (i == 0 ? !uri.is_null() : !uri.is_string()) return {};
+    }
+    const ParsedGltf& length = gltf_member(gltf_item(root, "buffers", 0), "byteLength");
+    if (!length.is_number_unsigned() || length.get<uint64_t>() > chunk.size()) return {};
+    return chunk.first(length.get<size_t>());
+}
+
+// What the parser reads: the file, or its document with changes, and the chunk beside it for a GLB that is not read in place.
+struct ParserInput {
+    std::optional<std::string> text;         // changed; none: the file is read as it is
+    std::optional<std::vector<uint8_t>> glb; // with the changed text
+};
+
+ParserInput parser_input(GltfSource& source, const std::vector<uint8_t>& file, bool is_glb, size_t json_bytes) {
+    std::optional<nlohmann::json> changed = parser_compatible(*source.json);
+    const std::span<const uint8_t> chunk = is_glb ? glb_binary(file) : std::span<const uint8_t>();
+    source.binary = large_binary(changed ? *changed : *source.json, chunk, json_bytes);
+    if (!source.binary.empty()) {
+        if (!changed) changed = *source.json;
+        set_placeholder((*changed)["buffers"][0]);
+    }
     if (!changed) return {};
-    const std::string text = changed->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (!binary) return std::vector<uint8_t>(text.begin(), text.end());
-    const std::span<const uint8_t> chunk = glb_binary(file);
-    return glb_bytes(text, {chunk.begin(), chunk.end()});
+    std::string text = changed->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!is_glb || !source.binary.empty()) return {std::move(text), {}};
+    return {{}, glb_bytes(text, {chunk.begin(), chunk.end()})};
 }
 
 // Runs tinygltf by `load(parser, &error, &warning)` and keeps its messages.
@@ -104,28 +130,39 @@ template <class Load> Result<void> parse(GltfSource& source, const Load& load) {
 
 } // namespace
 
+std::span<const uint8_t> GltfSource::buffer_bytes(size_t index) const {
+    return index == 0 && !binary.empty() ? binary : std::span<const uint8_t>(model.buffers[index].data);
+}
+
+double GltfSource::bytes_in_buffers() const {
+    double sum = 0;
+    for (size_t i = 0; i < model.buffers.size(); ++i) sum += double(buffer_bytes(i).size());
+    return sum;
+}
+
 Result<GltfSource> load_gltf(const std::filesystem::path& file) {
     const auto failed = [&](const Error& error) { return Error{file.string(), error.what, error.where}; };
-    const Result<std::vector<uint8_t>> bytes = read_file(file, max_file_bytes);
-    if (!bytes) return bytes.error();
-    GltfSource source{file, file.parent_path(), {}, {}, {}, {}};
+    Result<std::vector<uint8_t>> read = read_file(file, max_file_bytes);
+    if (!read) return read.error();
+    auto bytes = std::make_shared<const std::vector<uint8_t>>(*std::move(read));
+    GltfSource source{.file = file, .folder = file.parent_path(), .model = {}, .parser_notes = {}, .text = {}, .json = {}};
     const Result<std::string_view> text = gltf_json_text(*bytes);
     if (!text) return failed(text.error());
     Result<nlohmann::json> json = check_gltf_json(*text, source.folder);
     if (!json) return failed(json.error());
     source.json = std::make_shared<const nlohmann::json>(*std::move(json));
     source.text = std::make_shared<const std::string>(*text);
-    const bool binary = text->data() != reinterpret_cast<const char*>(bytes->data());
-    const std::optional<std::vector<uint8_t>> changed = without_packed_references(*source.json, *bytes, binary);
-    const std::vector<uint8_t>& parser_compatible = changed ? *changed : *bytes;
-    const auto size = uint32_t(parser_compatible.size());
+    const bool is_glb = text->data() != reinterpret_cast<const char*>(bytes->data());
+    const ParserInput input = parser_input(source, *bytes, is_glb, text->size());
     const auto parsed = parse(source, [&](tinygltf::TinyGLTF& parser, std::string* error, std::string* warning) {
         parser.SetFsCallbacks({file_exists, same_name, read_whole_file, refuse_to_write, &source.folder});
-        return binary ? parser.LoadBinaryFromMemory(&source.model, error, warning, parser_compatible.data(), size)
-                      : parser.LoadASCIIFromString(&source.model, error, warning, reinterpret_cast<const char*>(parser_compatible.data()),
-                                                   size, "");
+        const std::vector<uint8_t>& whole = input.glb ? *input.glb : *bytes;
+        if (is_glb && !input.text) return parser.LoadBinaryFromMemory(&source.model, error, warning, whole.data(), uint32_t(whole.size()));
+        const std::string_view json_text = input.text ? std::string_view(*input.text) : *text;
+        return parser.LoadASCIIFromString(&source.model, error, warning, json_text.data(), uint32_t(json_text.size()), "");
     });
     if (!parsed) return parsed.error();
+    if (!source.binary.empty()) source.whole_file = std::move(bytes);
     return source;
 }
 

@@ -275,6 +275,15 @@ TEST(Render, TheEnvironmentCanBeReplaced) {
     EXPECT_NE(read_snapshot_metadata(blue.metadata)->edits.find("environment"), std::string::npos);
 }
 
+TEST(Render, PeakMemoryIsThatOfTheProgramAlone) {
+    const TemporaryFolder folder;
+    const double alone = blush_json(with(tiny("cornell", folder / "out.exr"), {"--quiet"}))["peak_memory_mb"];
+    const std::vector<char> held(size_t(alone + 200) << 20, 1); // by the process that starts it
+    const Json json = blush_json(with(tiny("cornell", folder / "again.exr"), {"--quiet"}));
+    EXPECT_LT(json["peak_memory_mb"], alone + 100);
+    EXPECT_EQ(held.back(), 1);
+}
+
 TEST(Render, JsonHasTheKeysOfTheContract) {
     const TemporaryFolder folder;
     const Json json = blush_json(with(tiny("cornell", folder / "out.exr"), {"--quiet"}));

@@ -286,6 +286,57 @@ TEST(GltfParallel, ImagesThatAreDecodedTogetherHaveALimitedSize) {
     EXPECT_EQ(concurrent_decode_bytes(uint64_t(1) << 50), int64_t(1) << 30);
 }
 
+// The textures 0 and 1 are normal maps, 2 and 3 colours; 0 and 2 are large.
+GltfBuilder colors_and_normal_maps() {
+    GltfBuilder b;
+    b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});
+    for (unsigned i = 0; i < 4; ++i) add_texture(b, noisy_png(i % 2 == 0 ? 128 : 32, i));
+    for (const int color : {2, 3})
+        b.add("materials",
+              {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", color}}}}}, {"normalTexture", {{"index", color - 2}}}});
+    return b;
+}
+
+// What a first image needs most. The file has its images in the opposite order.
+TEST(GltfParallel, ColourAndSmallImagesAreDecodedFirst) {
+    const GltfBuilder b = colors_and_normal_maps();
+    const TempFolder folder;
+    write_bytes(folder / "scene.glb", b.glb());
+    const auto source = load_gltf(folder / "scene.glb");
+    ASSERT_TRUE(source) << error_text(source);
+    std::vector<int> order;
+    std::function<void()> look = [] {};
+    ImportOptions options;
+    options.threads = 1;
+    options.on_preview_scene = [](const ImportedScene&) {};
+    options.on_progress = [&](double, const std::string&) { look(); };
+    ImportReport report;
+    const GltfContext context{*source, options, report};
+    auto decoding = ImageDecoding::begin(context, std::vector{0, 1, 2, 3});
+    ASSERT_TRUE(decoding) << error_text(decoding);
+    look = [&] {
+        for (int i = 0; i < 4; ++i)
+            if (decoding->available(i) && std::ranges::find(order, i) == order.end()) order.push_back(i);
+    };
+    ASSERT_TRUE(decoding->finish());
+    EXPECT_EQ(order, (std::vector{3, 2, 1, 0}));
+}
+
+TEST(GltfParallel, AllColoursAreShownAtOnce) {
+    std::vector<ImportedScene> early;
+    ImportOptions options;
+    options.threads = 1;
+    options.on_preview_scene = [&](const ImportedScene& scene) { early.push_back(scene); };
+    const auto whole = import_built(colors_and_normal_maps(), options);
+    ASSERT_TRUE(whole) << error_text(whole);
+    const auto with_colors = std::ranges::find_if(early, [](const ImportedScene& shown) { return shown.scene.textures.size() == 2; });
+    ASSERT_NE(with_colors, early.end()) << "without waiting for the pause between previews";
+    for (const auto& [id, material] : with_colors->scene.materials) {
+        EXPECT_TRUE(material.base_color_texture.texture);
+        EXPECT_FALSE(material.normal_texture.texture);
+    }
+}
+
 TEST(GltfParallel, NoPreviewWithoutTextures) {
     GltfBuilder b;
     b.show({{"attributes", {{"POSITION", b.triangle_positions()}}}});

@@ -1,5 +1,7 @@
 #include "io/gltf/read/geometry/accessors.h"
 
+#include "core/for_ranges.h"
+
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
@@ -89,14 +91,18 @@ Result<const tinygltf::Accessor*> find_accessor(const GltfContext& context, int 
     return &accessor;
 }
 
-// Calls set(i, bytes) for every element of the buffer view, then for every sparse value.
-template <class Set>
-Result<void> for_each_element(const GltfContext& context, const tinygltf::Accessor& accessor, const std::string& where, Set&& set) {
+// Calls set_dense(elements, begin, end) for ranges of the elements of the buffer view, on several threads, or clear() if there is no
+// view, then set(i, bytes) for each sparse value.
+template <class SetDense, class Set, class Clear>
+Result<void> for_each_element(const GltfContext& context, const tinygltf::Accessor& accessor, const std::string& where,
+                              const SetDense& set_dense, const Set& set, const Clear& clear) {
     const uint64_t element = component_type(accessor.componentType).size * uint64_t(component_count(accessor.type));
     if (accessor.bufferView >= 0) {
         const auto dense = elements(context, accessor.bufferView, accessor.byteOffset, accessor.count, element, where);
         if (!dense) return dense.error();
-        for (size_t i = 0; i < accessor.count; ++i) set(i, (*dense)[i]);
+        for_ranges(accessor.count, context.options.threads, [&](size_t begin, size_t end) { set_dense(*dense, begin, end); });
+    } else {
+        clear();
     }
     if (!accessor.sparse.isSparse) return {};
 
@@ -144,15 +150,16 @@ Result<std::span<const uint8_t>> buffer_view_bytes(const GltfContext& context, i
     if (view.buffer < 0 || size_t(view.buffer) >= model.buffers.size())
         return context.error(fmt::format("buffer {} does not exist; there are {}", view.buffer, model.buffers.size()),
                              fmt::format("bufferViews[{}]", index));
-    const std::vector<unsigned char>& data = model.buffers[size_t(view.buffer)].data;
+    const std::span<const uint8_t> data = context.source.buffer_bytes(size_t(view.buffer));
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
         return context.error(
             fmt::format("offset {} and length {} reach beyond the buffer's {} bytes", view.byteOffset, view.byteLength, data.size()),
             fmt::format("bufferViews[{}]", index));
-    return std::span<const uint8_t>(data).subspan(view.byteOffset, view.byteLength);
+    return data.subspan(view.byteOffset, view.byteLength);
 }
 
-Result<FloatArray> read_floats(const GltfContext& context, int index, int min_components, int max_components, const std::string& where) {
+Result<void> read_floats(const GltfContext& context, int index, int min_components, int max_components, const std::string& where,
+                         const MakeFloatRoom& make_room) {
     const auto found = find_accessor(context, index, where);
     if (!found) return found.error();
     const tinygltf::Accessor& accessor = **found;
@@ -163,23 +170,43 @@ Result<FloatArray> read_floats(const GltfContext& context, int index, int min_co
     if (const auto ok = check_count(context, accessor, accessor_where); !ok) return ok.error();
 
     const ComponentType type = component_type(accessor.componentType);
-    FloatArray array{components, std::vector<float>(accessor.count * size_t(components))};
+    const FloatRoom room = make_room(accessor.count, components);
+    const auto n = size_t(components);
     const bool plain = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-    const auto done = for_each_element(context, accessor, accessor_where, [&](size_t i, const uint8_t* bytes) {
-        float* out = array.values.data() + i * size_t(components);
+    const auto set = [&](size_t i, const uint8_t* bytes) {
+        float* out = room.values + i * room.stride;
         if (plain) {
-            std::memcpy(out, bytes, size_t(components) * sizeof(float));
+            std::memcpy(out, bytes, n * sizeof(float));
             return;
         }
-        for (int c = 0; c < components; ++c) {
-            const double value = load_number(bytes + size_t(c) * type.size, accessor.componentType);
+        for (size_t c = 0; c < n; ++c) {
+            const double value = load_number(bytes + c * type.size, accessor.componentType);
             out[c] = float(accessor.normalized ? std::max(value * type.scale, type.low) : value);
         }
+    };
+    const auto set_dense = [&](const Elements& dense, size_t begin, size_t end) {
+        if (plain && room.stride == n && dense.stride == n * sizeof(float))
+            std::memcpy(room.values + begin * n, dense[begin], (end - begin) * dense.stride);
+        else
+            for (size_t i = begin; i < end; ++i) set(i, dense[i]);
+    };
+    const auto clear = [&] {
+        for (size_t i = 0; i < accessor.count; ++i) std::fill_n(room.values + i * room.stride, n, 0.f);
+    };
+    return for_each_element(context, accessor, accessor_where, set_dense, set, clear);
+}
+
+Result<FloatArray> read_floats(const GltfContext& context, int index, int min_components, int max_components, const std::string& where) {
+    FloatArray array;
+    const auto done = read_floats(context, index, min_components, max_components, where, [&](size_t count, int components) {
+        array.components = components;
+        array.values.resize(count * size_t(components));
+        return FloatRoom{array.values.data(), size_t(components)};
     });
     return done ? Result<FloatArray>(std::move(array)) : done.error();
 }
 
-Result<std::vector<uint32_t>> read_indices(const GltfContext& context, int index, const std::string& where) {
+Result<void> read_indices(const GltfContext& context, int index, const std::string& where, const MakeIndexRoom& make_room) {
     const auto found = find_accessor(context, index, where);
     if (!found) return found.error();
     const tinygltf::Accessor& accessor = **found;
@@ -190,13 +217,21 @@ Result<std::vector<uint32_t>> read_indices(const GltfContext& context, int index
         return context.error(fmt::format("accessor {} does not hold unsigned scalars", index), where);
     const std::string accessor_where = fmt::format("accessors[{}]", index);
     if (const auto ok = check_count(context, accessor, accessor_where); !ok) return ok.error();
-    std::vector<uint32_t> indices(accessor.count);
-    const auto done = for_each_element(context, accessor, accessor_where, [&](size_t i, const uint8_t* bytes) {
+    uint32_t* const indices = make_room(accessor.count);
+    const auto set = [&](size_t i, const uint8_t* bytes) {
         indices[i] = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? load<uint8_t>(bytes)
                      : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<uint16_t>(bytes)
                                                                       : load<uint32_t>(bytes);
-    });
-    return done ? Result<std::vector<uint32_t>>(std::move(indices)) : done.error();
+    };
+    const auto set_dense = [&](const Elements& dense, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) set(i, dense[i]);
+    };
+    return for_each_element(context, accessor, accessor_where, set_dense, set, [&] { std::fill_n(indices, accessor.count, 0u); });
+}
+
+uint64_t accessor_count(const GltfContext& context, int index) {
+    const auto& accessors = context.model().accessors;
+    return index >= 0 && size_t(index) < accessors.size() ? accessors[size_t(index)].count : 0;
 }
 
 } // namespace blush

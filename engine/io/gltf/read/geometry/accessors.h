@@ -4,6 +4,7 @@
 #include "io/gltf/read/context.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,11 +21,24 @@ struct FloatArray {
 };
 
 // Reads any component type; integers keep their value, or map to [0, 1] / [-1, 1] if the accessor is normalised (glTF 2.0,
-// 3.6.2.2).
+// 3.6.2.2). Long accessors are read by all threads.
 // Errors: out of range, beyond its view or buffer, fewer than `min_components` or more than `max_components` per element.
 Result<FloatArray> read_floats(const GltfContext& context, int accessor, int min_components, int max_components, const std::string& where);
 
-// Unsigned integers of 8, 16 or 32 bits.
-Result<std::vector<uint32_t>> read_indices(const GltfContext& context, int accessor, const std::string& where);
+// The same into room that the caller makes once the accessor is known to be whole: element i begins at values + i * stride.
+struct FloatRoom {
+    float* values = nullptr;
+    size_t stride = 0; // at least `components`
+};
+using MakeFloatRoom = std::function<FloatRoom(size_t count, int components)>;
+Result<void> read_floats(const GltfContext& context, int accessor, int min_components, int max_components, const std::string& where,
+                         const MakeFloatRoom& make_room);
+
+// Unsigned integers of 8, 16 or 32 bits, into room for `count`.
+using MakeIndexRoom = std::function<uint32_t*(size_t count)>;
+Result<void> read_indices(const GltfContext& context, int accessor, const std::string& where, const MakeIndexRoom& make_room);
+
+// What the accessor says its number of elements is, before anything is checked; 0 if it does not exist.
+uint64_t accessor_count(const GltfContext& context, int accessor);
 
 } // namespace blush

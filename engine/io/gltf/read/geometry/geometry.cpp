@@ -1,5 +1,6 @@
 #include "io/gltf/read/geometry/geometry.h"
 
+#include "core/for_ranges.h"
 #include "core/math.h"
 #include "io/gltf/check/lint.h"
 #include "io/gltf/read/extras.h"
@@ -14,7 +15,9 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numeric>
+#include <span>
 #include <type_traits>
 
 namespace blush {
@@ -24,38 +27,35 @@ bool finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(const Vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
 
-Vec2 element(const FloatArray& a, size_t i, Vec2*) { return {a.values[2 * i], a.values[2 * i + 1]}; }
-Vec3 element(const FloatArray& a, size_t i, Vec3*) { return {a.values[3 * i], a.values[3 * i + 1], a.values[3 * i + 2]}; }
-// COLOR_0 may have three components; alpha is then 1.
-Vec4 element(const FloatArray& a, size_t i, Vec4*) {
-    const float* v = a.values.data() + size_t(a.components) * i;
-    return {v[0], v[1], v[2], a.components == 4 ? v[3] : 1.0f};
-}
-
-// Reads an attribute as vectors; empty if the primitive does not have it.
+// Reads an attribute as vectors, large meshes straight to where they stay; empty if the primitive does not have it.
 template <class V> Result<GeometryArray<V>> read_attribute(const GltfContext& context, const tinygltf::Primitive& primitive,
-                                                           const std::string& name, int min_components, int max_components,
-                                                           const std::string& where) {
-    const auto it = primitive.attributes.find(name);
-    if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second))))
-        return GeometryArray<V>();
-    const Result<FloatArray> array = read_floats(context, it->second, min_components, max_components, where + "." + name);
-    if (!array) return array.error();
+                                                           const std::string& name, int min_components, const Geometry& g,
+                                                           Attribute attribute, const std::string& where) {
+    constexpr int floats = sizeof(V) / sizeof(float);
     GeometryArray<V> vectors;
-    vectors.reserve(array->count() + 1); // Embree needs padding behind shared positions (AccelTriangles)
-    vectors.resize(array->count());
-    for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = element(*array, i, static_cast<V*>(nullptr));
+    const auto it = primitive.attributes.find(name);
+    if (it == primitive.attributes.end() || is_fallback(gltf_item(context.json(), "accessors", size_t(it->second)))) return vectors;
+    int components = 0;
+    const auto read = read_floats(context, it->second, min_components, floats, where + "." + name, [&](size_t count, int given) {
+        components = given;
+        vectors = unset_array<V>(g.storage, attribute, count);
+        return FloatRoom{reinterpret_cast<float*>(vectors.data()), floats};
+    });
+    if (!read) return read.error();
+    // COLOR_0 may have three components; alpha is then 1.
+    if constexpr (std::is_same_v<V, Vec4>)
+        if (components == 3)
+            for (Vec4& v : vectors) v.w = 1;
     return vectors;
 }
 
 template <class V> void replace_non_finite(const GltfContext& context, GeometryArray<V>& values, V otherwise, const std::string& name,
                                            const std::string& where) {
-    size_t bad = 0;
-    for (V& v : values) {
-        if (finite(v)) continue;
-        v = otherwise;
-        ++bad;
-    }
+    const size_t bad = count_in_ranges(values.size(), context.options.threads, [&](size_t i) {
+        const bool is_bad = !finite(values[i]);
+        if (is_bad) values[i] = otherwise;
+        return is_bad;
+    });
     if (bad) context.warn(fmt::format("{} non-finite values of {} replaced", bad, name), where);
 }
 
@@ -63,22 +63,22 @@ std::string uv_attribute(int set) { return fmt::format("TEXCOORD_{}", set); }
 
 Result<void> read_attributes(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets, Geometry& g,
                              const std::string& where) {
-    const auto take = [&](auto& target, const std::string& name, int min_components, int max_components) -> Result<void> {
+    const auto take = [&](auto& target, const std::string& name, int min_components, Attribute attribute) -> Result<void> {
         using V = typename std::remove_reference_t<decltype(target)>::value_type;
-        Result<GeometryArray<V>> values = read_attribute<V>(context, primitive, name, min_components, max_components, where);
+        Result<GeometryArray<V>> values = read_attribute<V>(context, primitive, name, min_components, g, attribute, where);
         if (!values) return values.error();
         target = *std::move(values);
         if (!target.empty() && target.size() != g.positions.size())
             return context.error(fmt::format("{} has {} elements for {} positions", name, target.size(), g.positions.size()), where);
         return {};
     };
-    if (auto ok = take(g.positions, "POSITION", 3, 3); !ok) return ok;
-    if (auto ok = take(g.normals, "NORMAL", 3, 3); !ok) return ok;
-    if (auto ok = take(g.tangents, "TANGENT", 4, 4); !ok) return ok;
-    if (auto ok = take(g.colors, "COLOR_0", 3, 4); !ok) return ok;
+    if (auto ok = take(g.positions, "POSITION", 3, Attribute::positions); !ok) return ok;
+    if (auto ok = take(g.normals, "NORMAL", 3, Attribute::normals); !ok) return ok;
+    if (auto ok = take(g.tangents, "TANGENT", 4, Attribute::tangents); !ok) return ok;
+    if (auto ok = take(g.colors, "COLOR_0", 3, Attribute::colors); !ok) return ok;
     for (const int set : uv_sets) {
         GeometryArray<Vec2> uv;
-        if (auto ok = take(uv, uv_attribute(set), 2, 2); !ok) return ok;
+        if (auto ok = take(uv, uv_attribute(set), 2, uv_attribute_of(set)); !ok) return ok;
         if (uv.empty()) continue;
         replace_non_finite(context, uv, Vec2{0, 0}, uv_attribute(set), where);
         g.uv.resize(size_t(set) + 1);
@@ -89,8 +89,11 @@ Result<void> read_attributes(const GltfContext& context, const tinygltf::Primiti
 }
 
 // Three indices per triangle from the vertex order of a list, strip or fan (glTF 2.0, 3.7.2.1), front faces counter-clockwise.
-GeometryArray<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) return {order.begin(), order.end() - std::ptrdiff_t(order.size() % 3)};
+GeometryArray<uint32_t> triangulate(GeometryArray<uint32_t> order, int mode) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        order.resize(order.size() - order.size() % 3);
+        return order;
+    }
     GeometryArray<uint32_t> triangles;
     for (size_t i = 0; i + 2 < order.size(); ++i) {
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
@@ -101,24 +104,39 @@ GeometryArray<uint32_t> triangulate(const std::vector<uint32_t>& order, int mode
     return triangles;
 }
 
-Result<std::vector<uint32_t>> vertex_order(const GltfContext& context, const tinygltf::Primitive& primitive, size_t vertices,
-                                           const std::string& where) {
+// The numbers 0, 1, 2, ...
+void count_up(const GltfContext& context, GeometryArray<uint32_t>& numbers) {
+    for_ranges(numbers.size(), context.options.threads, [&](size_t begin, size_t end) {
+        std::iota(numbers.begin() + std::ptrdiff_t(begin), numbers.begin() + std::ptrdiff_t(end), uint32_t(begin));
+    });
+}
+
+Result<GeometryArray<uint32_t>> vertex_order(const GltfContext& context, const tinygltf::Primitive& primitive, const Geometry& g,
+                                             const std::string& where) {
+    const size_t vertices = g.positions.size();
     if (primitive.indices < 0) {
-        std::vector<uint32_t> order(vertices);
-        std::iota(order.begin(), order.end(), 0u);
+        GeometryArray<uint32_t> order = unset_indices(g.storage, vertices);
+        count_up(context, order);
         return order;
     }
-    Result<std::vector<uint32_t>> order = read_indices(context, primitive.indices, where + ".indices");
-    if (!order) return order;
-    const auto beyond = std::find_if(order->begin(), order->end(), [&](uint32_t i) { return i >= vertices; });
-    if (beyond != order->end())
-        return context.error(fmt::format("index {} is not below the number of vertices, {}", *beyond, vertices), where + ".indices");
+    GeometryArray<uint32_t> order;
+    const auto read = read_indices(context, primitive.indices, where + ".indices", [&](size_t count) {
+        order = unset_indices(g.storage, count);
+        return order.data();
+    });
+    if (!read) return read.error();
+    const auto is_beyond = [&](uint32_t i) { return i >= vertices; };
+    if (count_in_ranges(order.size(), context.options.threads, [&](size_t i) { return is_beyond(order[i]); }) > 0)
+        return context.error(
+            fmt::format("index {} is not below the number of vertices, {}", *std::ranges::find_if(order, is_beyond), vertices),
+            where + ".indices");
     return order;
 }
 
 // Removes triangles with a non-finite corner, and sets the vertices that become unused to finite values.
 Result<void> drop_non_finite_triangles(const GltfContext& context, Geometry& g, const std::string& where) {
-    if (std::ranges::all_of(g.positions, [](const Vec3& p) { return finite(p); })) return {};
+    const auto is_bad = [&](size_t i) { return !finite(g.positions[i]); };
+    if (count_in_ranges(g.positions.size(), context.options.threads, is_bad) == 0) return {};
     auto kept = g.indices.begin();
     for (auto corner = g.indices.begin(); corner != g.indices.end(); corner += 3)
         if (finite(g.positions[corner[0]]) && finite(g.positions[corner[1]]) && finite(g.positions[corner[2]]))
@@ -144,29 +162,37 @@ Vec3 unit_or_up(const Vec3d& n) {
 }
 
 // glTF 2.0, 3.7.2.1: flat normals if there are none; each triangle then gets its own vertices.
-void make_flat(Geometry& g) {
-    const auto unweld = [&](auto& values) {
+void make_flat(const GltfContext& context, Geometry& g) {
+    const size_t corners = g.indices.size();
+    const std::shared_ptr<const void> storage = reserve_in_arena(corners, corners);
+    const auto for_corners = [&](const std::function<void(size_t, size_t)>& work) { for_ranges(corners, context.options.threads, work); };
+    const auto unweld = [&](auto& values, Attribute attribute) {
         if (values.empty()) return;
-        std::remove_reference_t<decltype(values)> own(g.indices.size());
-        for (size_t i = 0; i < own.size(); ++i) own[i] = values[g.indices[i]];
+        auto own = unset_array<typename std::remove_reference_t<decltype(values)>::value_type>(storage, attribute, corners);
+        for_corners([&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) own[i] = values[g.indices[i]];
+        });
         values = std::move(own);
     };
     unweld_deformation(g);
-    unweld(g.positions);
-    for (GeometryArray<Vec2>& uv : g.uv) unweld(uv);
-    unweld(g.colors);
+    unweld(g.positions, Attribute::positions);
+    for (size_t set = 0; set < g.uv.size(); ++set) unweld(g.uv[set], uv_attribute_of(int(set)));
+    unweld(g.colors, Attribute::colors);
     g.tangents.clear(); // the specification requires tangents without normals to be ignored
-    std::iota(g.indices.begin(), g.indices.end(), 0u);
-    g.normals.resize(g.indices.size());
+    g.indices = unset_indices(storage, corners);
+    count_up(context, g.indices);
+    g.normals = unset_array<Vec3>(storage, Attribute::normals, corners);
     g.flat = true;
-    for (size_t t = 0; t < g.triangle_count(); ++t)
-        std::fill_n(g.normals.begin() + std::ptrdiff_t(3 * t), 3, unit_or_up(area_normal(g, t)));
+    g.storage = storage;
+    for_ranges(g.triangle_count(), context.options.threads, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) std::fill_n(g.normals.begin() + std::ptrdiff_t(3 * t), 3, unit_or_up(area_normal(g, t)));
+    });
 }
 
 // Replaces zero and non-finite normals by the area-weighted mean of the adjacent face normals.
 void repair_normals(const GltfContext& context, Geometry& g, const std::string& where) {
     const auto usable = [](const Vec3& n) { return finite(n) && length(to_double(n)) > 1e-12; };
-    const auto bad = size_t(std::count_if(g.normals.begin(), g.normals.end(), [&](const Vec3& n) { return !usable(n); }));
+    const size_t bad = count_in_ranges(g.normals.size(), context.options.threads, [&](size_t i) { return !usable(g.normals[i]); });
     if (!bad) return;
     std::vector<Vec3d> sums(g.normals.size(), Vec3d{0, 0, 0});
     for (size_t t = 0; t < g.triangle_count(); ++t)
@@ -203,7 +229,7 @@ void provide_tangents(const GltfContext& context, Geometry& g, int uv_set, const
         context.note("approximated: generated tangents are deformed with the mesh instead of being recomputed for each pose", where);
 }
 
-GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const std::vector<uint32_t>& order, int mode,
+GeometryPtr solids(const GltfContext& context, const Geometry& vertices, std::span<const uint32_t> order, int mode,
                    const std::string& where) {
     Solids made = solids_of(vertices, order, mode);
     const char* what = mode == TINYGLTF_MODE_POINTS ? "points" : "lines";
@@ -215,6 +241,15 @@ GeometryPtr solids(const GltfContext& context, const Geometry& vertices, const s
                  where);
     move_to_arena(made.geometry);
     return std::make_shared<const Geometry>(std::move(made.geometry));
+}
+
+// Room in the arena for a mesh of which no vertex is split. Others get theirs when their numbers are known.
+std::shared_ptr<const void> room_for(const GltfContext& context, const tinygltf::Primitive& primitive) {
+    const auto positions = primitive.attributes.find("POSITION");
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES || positions == primitive.attributes.end() || !primitive.attributes.contains("NORMAL"))
+        return {};
+    const uint64_t vertices = accessor_count(context, positions->second);
+    return reserve_in_arena(vertices, primitive.indices < 0 ? vertices : accessor_count(context, primitive.indices));
 }
 
 void report_ignored(const GltfContext& context, const tinygltf::Primitive& primitive, const std::vector<int>& uv_sets,
@@ -245,14 +280,15 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     }
     auto geometry = std::make_shared<Geometry>();
     Geometry& g = *geometry;
+    g.storage = room_for(context, primitive);
     if (const auto ok = read_attributes(context, primitive, needs.uv_sets, g, where); !ok) return ok.error();
     if (const auto ok = read_deformation(context, primitive, g, where); !ok) return ok.error();
-    auto order = vertex_order(context, primitive, g.positions.size(), where);
+    auto order = vertex_order(context, primitive, g, where);
     if (!order) return order.error();
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return solids(context, g, *order, primitive.mode, where);
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && order->size() % 3 != 0)
         context.warn("the last triangle is incomplete and is skipped", where);
-    g.indices = triangulate(*order, primitive.mode);
+    g.indices = triangulate(*std::move(order), primitive.mode);
     if (g.indices.empty()) {
         context.warn("ignored: a primitive without triangles", where);
         return GeometryPtr();
@@ -260,7 +296,7 @@ Result<GeometryPtr> import_primitive(const GltfContext& context, const tinygltf:
     if (const auto ok = drop_non_finite_triangles(context, g, where); !ok) return ok.error();
     report_geometry(context, g, where);
     if (g.normals.empty())
-        make_flat(g);
+        make_flat(context, g);
     else
         repair_normals(context, g, where);
     provide_tangents(context, g, needs.tangent_uv_set, where);

@@ -64,7 +64,7 @@ void add_tube(Builder& b, uint32_t from, uint32_t to, const Vec3d& a, const Vec3
 }
 
 // Vertex pairs of the segments.
-std::vector<std::pair<uint32_t, uint32_t>> segments_of(const std::vector<uint32_t>& order, int mode) {
+std::vector<std::pair<uint32_t, uint32_t>> segments_of(std::span<const uint32_t> order, int mode) {
     std::vector<std::pair<uint32_t, uint32_t>> segments;
     for (size_t i = 0; i + 1 < order.size(); i += mode == 1 ? 2 : 1) segments.emplace_back(order[i], order[i + 1]);
     if (mode == 2 && order.size() > 2) segments.emplace_back(order.back(), order.front());
@@ -87,7 +87,7 @@ float mark_radius(const GeometryArray<Vec3>& positions) {
     return radius > 0 && std::isfinite(radius) ? radius : radius_of_one_place;
 }
 
-Solids solids_of(const Geometry& vertices, const std::vector<uint32_t>& order, int mode) {
+Solids solids_of(const Geometry& vertices, std::span<const uint32_t> order, int mode) {
     Solids made;
     made.radius = mark_radius(vertices.positions);
     Builder b;

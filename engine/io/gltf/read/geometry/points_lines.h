@@ -4,7 +4,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 namespace blush {
 
@@ -23,6 +23,6 @@ float mark_radius(const GeometryArray<Vec3>& positions);
 
 // Spheres of twenty triangles around the vertices in `order`, or tubes with six sides along its segments; `mode` is glTF's: 0
 // points, 1 lines, 2 a loop, 3 a strip. Indices are below the number of positions.
-Solids solids_of(const Geometry& vertices, const std::vector<uint32_t>& order, int mode);
+Solids solids_of(const Geometry& vertices, std::span<const uint32_t> order, int mode);
 
 } // namespace blush

@@ -168,6 +168,10 @@ struct ImageDecoding::State {
     std::atomic<size_t> done = 0;
     std::atomic<bool> waited_for = false, given_up = false;
 
+    std::array<std::vector<size_t>, 2> by_need; // files below the share of memory of a thread, and larger ones
+    std::array<std::atomic<size_t>, 2> next_needed{};
+    std::atomic<size_t> colors_left = 0;
+    bool colors_shown = false;
     std::vector<size_t> file_of;  // by image; files.size(): none
     std::vector<size_t> previews; // files to be decoded at an eighth of their size first
     std::atomic<size_t> next_preview = 0;
@@ -196,17 +200,32 @@ struct ImageDecoding::State {
         if (!context.options.on_preview_scene) previews.clear();
     }
 
+    // Colour before other data, since it is most of what one sees, and then small images first, so that many are there early.
+    void order_by_need(int64_t share) {
+        for (size_t f = 0; f < files.size(); ++f) by_need[is_large(f, share)].push_back(f);
+        colors_left = size_t(std::ranges::count_if(files, &Encoded::is_color));
+        colors_shown = colors_left == 0;
+        for (std::vector<size_t>& order : by_need)
+            std::ranges::stable_sort(order, {}, [&](size_t f) { return std::pair(!files[f].is_color, files[f].info.bytes()); });
+    }
+    bool is_large(size_t file, int64_t share) const { return files[file].info.bytes() > share; }
+
     bool is_over() const { return given_up || context.cancelled(); }
-    void decode_one(size_t index) {
+    // The most needed file of those that are or are not large. The queue decides when, not which.
+    void decode_next(bool large) {
         if (decode_previews() && is_reporting()) show();
         if (is_over()) return;
+        const size_t index = by_need[large][next_needed[large]++];
         Encoded& file = files[index];
         if (!file.decoded) decode(context, file);
         if (*file.decoded) make_available(index, **file.decoded);
+        if (file.is_color) --colors_left;
         ++done;
         if (!is_reporting()) return;
         report();
-        if (done < files.size() && Clock::now() >= next_shown) show();
+        const bool all_colors = colors_left == 0 && !colors_shown;
+        colors_shown |= all_colors;
+        if (done < files.size() && (all_colors || Clock::now() >= next_shown)) show();
     }
     bool is_reporting() const { return waited_for && std::this_thread::get_id() == reporter; }
     // Previews of all images come before the first image, whichever thread begins. True if this thread has made some.
@@ -257,7 +276,8 @@ Result<ImageDecoding> ImageDecoding::begin(const GltfContext& context, std::span
     const unsigned threads = context.options.threads ? context.options.threads : std::max(1u, std::thread::hardware_concurrency());
     const int64_t share = concurrent_decode_bytes(memory_limit().left) / threads;
     state->find_previews(share);
-    state->helpers.begin(sizes, share, [s = state.get()](size_t i) { s->decode_one(i); });
+    state->order_by_need(share);
+    state->helpers.begin(sizes, share, [s = state.get(), share](size_t i) { s->decode_next(s->is_large(i, share)); });
     return ImageDecoding(std::move(state));
 }
 

@@ -19,8 +19,9 @@ public:
     // Reads the headers of the images `wanted` (negative indices are skipped) and starts decoding. Images with identical bytes
     // are decoded once. If the total would exceed ImportOptions::texture_bytes, the largest are halved until it fits, with a
     // warning each. Grey images become RGB. Images being decoded at the same time have at most concurrent_decode_bytes() bytes together, or
-    // the largest one more. With ImportOptions::on_preview_scene, large JPEGs are first decoded at an eighth of their size. The
-    // context must outlive this object. Errors: a buffer view that does not exist.
+    // the largest one more. Images of colour come before others, and small ones before large ones. With
+    // ImportOptions::on_preview_scene, large JPEGs are first decoded at an eighth of their size. The context must outlive this object.
+    // Errors: a buffer view that does not exist.
     static Result<ImageDecoding> begin(const GltfContext& context, std::span<const int> wanted);
     ImageDecoding(ImageDecoding&&) noexcept;
     ~ImageDecoding(); // drops images whose decoding has not started
@@ -29,7 +30,8 @@ public:
     bool is_expected(int image) const;
     bool is_done() const;
     // Waits for the remaining images and reports progress from 0.6 to 1. Calls on_more() on this thread when the images of
-    // available() have become more, with pauses. An image that cannot be decoded is a warning. Errors: cancelled.
+    // available() have become more, with pauses, and when all of colour are there. An image that cannot be decoded is a warning. Errors:
+    // cancelled.
     Result<void> finish(const std::function<void()>& on_more = {});
     // The image as far as it is known: decoded, at an eighth of its size, or null.
     ImagePtr available(int index) const;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -43,7 +44,7 @@ bool is_closed(const Geometry& g) {
 
 TEST(GltfPointsLines, SolidsAreClosed) {
     const Geometry source = corners();
-    const Solids ball = solids_of(source, {1}, 0), tube = solids_of(source, {0, 2}, 1);
+    const Solids ball = solids_of(source, std::array{1u}, 0), tube = solids_of(source, std::array{0u, 2u}, 1);
     for (const Solids* made : {&ball, &tube}) {
         EXPECT_EQ(made->shown, 1u);
         EXPECT_NEAR(made->radius, 1, 1e-6);
@@ -81,8 +82,8 @@ TEST(GltfPointsLines, ModesAreThoseOfGltf) {
 TEST(GltfPointsLines, SkippedPointsAndLinesAreCounted) {
     Geometry g = corners();
     g.positions[3] = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
-    EXPECT_EQ(solids_of(g, {0, 3, 1}, 0).left_out, 1u);
-    EXPECT_EQ(solids_of(g, {0, 1, 3, 1, 2, 2}, 1).left_out, 2u);
+    EXPECT_EQ(solids_of(g, std::vector<uint32_t>{0, 3, 1}, 0).left_out, 1u);
+    EXPECT_EQ(solids_of(g, std::vector<uint32_t>{0, 1, 3, 1, 2, 2}, 1).left_out, 2u);
     const Solids many = solids_of(g, std::vector<uint32_t>(max_points_and_segments + 5, 1), 0);
     EXPECT_EQ(many.shown, max_points_and_segments);
     EXPECT_EQ(many.left_out, 5u);
