@@ -82,7 +82,7 @@ public:
     ErrorEstimate estimate_error();
     // Standard error of the mean of each pixel from the two half buffers, RGB; empty before both hold samples.
     std::vector<Vec3> resolve_error();
-    // Error correlation between pixels by path reuse; 1 without.
+    // Error correlation between pixels by path reuse, or without it by the sampler.
     ReuseCovariance reuse_covariance();
 
     // Saves the film exactly: another renderer of the same scene and settings continues as if it

@@ -128,7 +128,7 @@ std::vector<Vec3> Renderer::resolve_error() {
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
     const int group_size = reuse_group_size(state_->settings, state_->reuse.pilot());
-    return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : ReuseCovariance{};
+    return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : measure_sampler_covariance(state_->film);
 }
 
 bool Renderer::has_light() const { return state_->scene.has_light(); }

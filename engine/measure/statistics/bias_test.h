@@ -15,7 +15,7 @@ struct MeasuredImage {
     RgbImage image;
     std::vector<Vec3> error;    // width * height
     int64_t samples = 0;        // per pixel
-    double variance_factor = 1; // factor on the variance of a mean over pixels due to covariance of pixels (path reuse)
+    double variance_factor = 1; // factor on the variance of a mean over pixels due to covariance of pixels
 };
 
 // Mean of two images weighted by their sample counts, with its error. Sizes must agree; an empty image is ignored.

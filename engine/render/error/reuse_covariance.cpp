@@ -1,5 +1,6 @@
 #include "render/error/reuse_covariance.h"
 
+#include "core/sampler.h"
 #include "render/film/film.h"
 #include "render/film/sample_allocation.h"
 
@@ -60,6 +61,11 @@ ReuseCovariance measure_reuse_covariance(const Film& film, const ReuseGroups& gr
     shared.products = 1 + of_products(near - 1, near_side * near_side * (1 - 1 / most)) +
                       of_products(shared.means - near, groups.block_width * groups.block_height - near_side * near_side);
     return shared;
+}
+
+ReuseCovariance measure_sampler_covariance(const Film& film) {
+    constexpr int side = 1 << block_bits;
+    return {.means = std::max(1.0, ratios_of_blocks(film, {.block_width = side, .block_height = side}).blocks)};
 }
 
 ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers) {

@@ -1,4 +1,4 @@
-// Covariance between pixels caused by path reuse, measured from the halves of the film.
+// Covariance between pixels caused by path reuse and by the sampler, measured from the halves of the film.
 #pragma once
 
 #include "render/integrator/reuse_groups.h"
@@ -21,6 +21,10 @@ struct ReuseCovariance {
 // the halves' errors, whose pairs have the correlation r^2, have 1 + n r^2. Blocks are those of `groups`, and the smaller tiles
 // of adaptive sampling within them (sample_allocation.h), whose correlation may be higher. Large films are subsampled in blocks.
 ReuseCovariance measure_reuse_covariance(const Film& film, const ReuseGroups& groups);
+
+// Without path reuse: of the blocks of pixels with complementary points (core/sampler.h). Their errors mostly cancel, and count as
+// independent then. What only two or more pairs of dimensions together explain may add up instead, by up to a half.
+ReuseCovariance measure_sampler_covariance(const Film& film);
 
 // For a film rendered with `reuse` pixels per group.
 ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers);

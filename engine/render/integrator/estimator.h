@@ -17,8 +17,7 @@ constexpr uint32_t first_scatter_dimension = 2;
 enum ScatterDimension : uint32_t { light_dimension, bsdf_dimension, choice_dimension, dimensions_per_scatter };
 
 template <Features S, class F> Path<F> begin_path(const SceneTables& scene, const EstimatorSettings& settings, const F& x, const F& y,
-                                                  const UInt<F>& key, const UInt<F>& index, const Int<F>& slot) {
-    const Sampler<F> sampler{key, index};
+                                                  const Sampler<F>& sampler, const Int<F>& slot) {
     const Pair<F> in_pixel = sampler.pair(0);
     const F px = x + 0.5f + filter_offset(*settings.filter, in_pixel.x());
     const F py = y + 0.5f + filter_offset(*settings.filter, in_pixel.y());
@@ -33,8 +32,8 @@ template <Features S, class F> Path<F> begin_path(const SceneTables& scene, cons
     path.beta = splat<F>(1.f);
     path.pdf = F(infinity);
     path.normal = splat<F>(0.f);
-    path.key = key;
-    path.index = index;
+    path.key = sampler.key;
+    path.index = sampler.index;
     path.slot = slot;
     path.part = Int<F>(from_camera);
     path.dispersed = Int<F>(0);

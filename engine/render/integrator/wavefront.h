@@ -104,15 +104,13 @@ template <Features S, class F>
         const UInt<F> sample = load<UInt<F>>(samples + k);
         const UInt<F> odd = sample & 1u;
         const UInt<F> random = select(as_mask(odd != 0u), UInt<F>(half[1]), UInt<F>(half[0]));
-        UInt<F> key = pixel_key<F>(to_unsigned(to_int(x)), to_unsigned(to_int(y)), random), index = sample >> 1;
-        if (context.settings.sampler == SamplerType::random) {
-            key = independent_key(key, index);
-            index = UInt<F>(0u);
-        }
+        const UInt<F> column = to_unsigned(to_int(x)), row = to_unsigned(to_int(y)), index = sample >> 1;
+        const Sampler<F> sampler = context.settings.sampler == SamplerType::random ? independent_sampler<F>(column, row, random, index)
+                                                                                   : pixel_sampler<F>(column, row, random, index);
         const Int<F> slot = iota<F>() + k;
         if constexpr (S.has(Feature::links)) store(q.part + q.size, Int<F>(from_camera));
         if constexpr (S.has(Feature::dispersion)) store(q.dispersed + q.size, Int<F>(0));
-        append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, key, index, slot), as_mask(slot < n));
+        append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, sampler, slot), as_mask(slot < n));
     }
     if (scratch.photons) emit_photons(*scratch.photons, q);
     std::fill_n(scratch.r.data, n, 0.0);

@@ -45,7 +45,7 @@ TEST(Arithmetic, APathOverTwoDiffuseSurfaces) {
         return path;
     };
     const auto on = [](int32_t part) { return Hit<float>{1, 0.5f, 0.25f, part, -1, 0}; };
-    Path<float> path = begin_path<s, float>(compiled.tables(), estimator, 0, 0, 17u, 0u, 0);
+    Path<float> path = begin_path<s, float>(compiled.tables(), estimator, 0, 0, Sampler<float>{17u, 0u}, 0);
     Step<float> step = scatter<s, float>(compiled.tables(), estimator, from_above(path), on(0), 0, true);
     ASSERT_TRUE(step.continues);
     EXPECT_FALSE(step.emits);

@@ -64,7 +64,7 @@ Scene grid(const std::vector<Material>& materials) {
 std::vector<Measured> blocks(const Scene& scene, Strategy strategy, int64_t spp) {
     RenderSettings settings = settings_for(32, 24, spp);
     settings.strategy = strategy;
-    settings.seed = 1 + uint32_t(strategy);
+    settings.seed = 4 + uint32_t(strategy);
     return render(scene, settings).blocks(8, 8);
 }
 
