@@ -67,6 +67,31 @@ TEST(PathLog, SaysHowMuchLightBlendedSurfacesLeave) {
     EXPECT_NEAR(logged.x, 0.5f, 1e-6f);
 }
 
+// Every sample has it, whether the veil stops the path by chance or not.
+TEST(PathLog, SaysHowMuchOfTheBackgroundBlendedSurfacesLeave) {
+    Scene scene;
+    constant_world(scene, 2);
+    Material veil = lambert(0.f);
+    veil.alpha = Material::Alpha::blend;
+    veil.opacity = 0.75f;
+    place(scene, floor_quad(9, 1), veil);
+    scene.view = looking_down(2, 0.5f);
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.max_bounces = 1;
+    int stopped = 0;
+    for (int64_t sample = 0; sample < 16; ++sample) {
+        const std::string log = trace_sample(scene, settings, 3, 4, sample);
+        const bool past = log.find("background contributes (0.5, 0.5, 0.5) past blended surfaces") != std::string::npos;
+        EXPECT_NE(past, log.find("emission   contributes (0.5, 0.5, 0.5)") != std::string::npos) << log;
+        stopped += past;
+        Vec3 logged;
+        ASSERT_TRUE(read_radiance(log, logged));
+        EXPECT_NEAR(logged.x, 0.5f, 1e-6f);
+    }
+    EXPECT_EQ(stopped, 12);
+}
+
 TEST(PathLog, MentionsSmoothEdges) {
     RenderSettings settings;
     settings.width = settings.height = 16;

@@ -1,5 +1,6 @@
 // Path rays see the background behind blended surfaces without noise by chance, and where they stop by chance, the samples of a pixel
 // are stratified.
+#include "render/renderer.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
@@ -132,6 +133,27 @@ TEST(BlendedBackground, StrategiesAgree) {
     EXPECT_TRUE(same_means(shot(scene, Strategy::light, 512), found, each));
     EXPECT_TRUE(same_means(shot(scene, Strategy::mis, 512), found, each));
     EXPECT_TRUE(same_means(shot(scene, Strategy::mis, 512, 16), found, each));
+}
+
+// Groups of the sun, the sky and lamps that are leaves.
+TEST(BlendedBackground, LightGroupsAddUpToTheImage) {
+    Scene scene = leaves();
+    Material lamp = blended(0.5f, 0.5f);
+    lamp.emissive = {1, 0.5f, 0.2f};
+    place(scene, floor_quad(0.5f, 0.9f), lamp);
+    scene.mix.grouping = LightMix::Grouping::by_light;
+    RenderSettings settings = settings_for(32, 32, 8);
+    settings.max_bounces = 2;
+    Renderer renderer({.threads = 2});
+    renderer.update(scene, settings);
+    EXPECT_TRUE(renderer.render(0, 8));
+    const Frame frame = renderer.resolve();
+    ASSERT_GE(frame.groups.size(), 3u);
+    for (size_t i = 0; i < frame.groups[0].size(); ++i) {
+        Vec3 sum{0, 0, 0};
+        for (const auto& group : frame.groups) sum = sum + group[i];
+        EXPECT_NEAR(sum.x, frame.rgba[4 * i], 2e-5f * (1 + sum.x)) << i;
+    }
 }
 
 } // namespace
