@@ -74,7 +74,7 @@ TEST(PathLog, SaysHowMuchOfTheBackgroundBlendedSurfacesLeave) {
     Material veil = lambert(0.f);
     veil.alpha = Material::Alpha::blend;
     veil.opacity = 0.75f;
-    place(scene, floor_quad(9, 1), veil);
+    place(scene, floor_quad(9), veil);
     scene.view = looking_down(2, 0.5f);
     RenderSettings settings;
     settings.width = settings.height = 8;
