@@ -18,7 +18,8 @@ struct RenderedImage {
     Frame frame;
 
     const Vec3d& at(int x, int y) const { return pixels[size_t(y) * size_t(width) + size_t(x)]; }
-    // Pixels are independent, so variances are added. Each is estimated from one difference: use regions of at least 64 pixels.
+    // Variances are added: errors of neighbouring pixels mostly cancel (core/sampler.h), and count as independent. Each is estimated from
+    // one difference: use regions of at least 64 pixels.
     Measured region(int x, int y, int w, int h) const;
     Measured whole() const { return region(0, 0, width, height); }
     // Adjacent regions of w x h pixels, by rows.

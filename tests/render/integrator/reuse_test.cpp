@@ -108,14 +108,14 @@ TEST(PathReuse, KeepsTheMeanWhereverPathsEnd) {
         SCOPED_TRACE(bounces);
         RenderSettings settings = settings_for(size, size, 4);
         settings.max_bounces = bounces;
-        expect_same_means(scene, settings, {16}, 32);
+        expect_same_means(scene, settings, {16}, 64);
     }
     for (const char* rule : {"off", "constant=0.6,start=1", "max,start=1"}) {
         SCOPED_TRACE(rule);
         RenderSettings settings = settings_for(size, size, 4);
         settings.roulette = *parse_roulette(rule);
         settings.max_bounces = 8;
-        expect_same_means(scene, settings, {16}, 32);
+        expect_same_means(scene, settings, {16}, 64);
     }
 }
 
