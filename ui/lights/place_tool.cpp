@@ -23,6 +23,12 @@ bool plain_click() {
 
 double distance_between(const LightPose& pose, const Vec3d& point) { return std::max(length(pose.position - point), 1e-6); }
 
+// The point, raised by about a pixel: its depth is a mean over the pixel, and may lie behind the surface.
+Vec3d above_surface(const Projection& projection, const ImageRect& image, const SurfacePoint& spot) {
+    const auto seen = projection.project(spot.position);
+    return seen ? spot.position + spot.normal * (projection.height_at(seen->distance) / double(image.height)) : spot.position;
+}
+
 } // namespace
 
 std::optional<SurfacePoint> PlaceTool::surface_under_mouse(PanelContext& c, const Projection& projection, const ImageRect& image) const {
@@ -120,7 +126,7 @@ bool PlaceTool::update(PanelContext& c, ImDrawList& draw, const Projection& proj
     if (pressed && spot) press(c, *spot);
     if (dragging_ && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) placed_ = true;
     const auto pose = spot ? wanted(c, projection, image, *spot) : std::nullopt;
-    if (dragging_ && placed_ && pose) effect_at_ = spot->position;
+    if (dragging_ && placed_ && pose) effect_at_ = above_surface(projection, image, *spot);
     if (dragging_ && placed_ && pose) c.apply(SetNode{node_, with_pose(c.scene(), node_, *pose)}, c.ui.gestures.current());
     if (spot) draw_preview(draw, projection, image, *spot, pose);
     if (dragging_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) release(c);
