@@ -356,7 +356,8 @@ void Accel::intersect_unblended(const RayArrays& rays, int count, bool coherent,
 }
 
 void Accel::intersect_blended(const RayArrays& rays, int count, const HitArrays& hits, float* share) const {
-    // Not as coherent packets: Embree 3.13 reports hits of those more than once (trace_occluded() in packets.h).
+    // Not as coherent packets: Embree 3.13 reports any-hits of those more than once (trace_occluded() in packets.h). Of closest hits
+    // this was not seen, but each must count once.
     state_->trace(rays, count, false, Blended::both, hits, share);
 }
 

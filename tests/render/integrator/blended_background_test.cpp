@@ -93,6 +93,24 @@ TEST(BlendedBackground, SamplesOfAPixelAreStratified) {
     }
 }
 
+// Whatever the order in which the traversal meets them.
+TEST(BlendedBackground, TheNearestOfTheSurfacesThatStopARayIsHit) {
+    for (const bool reversed : {false, true}) {
+        Scene scene;
+        constant_world(scene, 2);
+        for (int i = 0; i < 2; ++i) {
+            const bool near = (i == 0) != reversed;
+            const float z = near ? -2.f : -4.f;
+            Material lamp = blended(0.5f);
+            lamp.emissive = {1, 1, 1};
+            lamp.emissive_strength = near ? 1.f : 3.f;
+            place(scene, quad({-9, -9, z}, {9, -9, z}, {9, 9, z}, {-9, 9, z}), lamp);
+        }
+        scene.view = looking({0.1f, 0.2f, 0}, {0.1f, 0.2f, -1}, 0.5f);
+        EXPECT_TRUE(is_mean(render(scene, direct(64)).whole(), 0.5 * 1 + 0.25 * 3 + 0.25 * 2)) << reversed;
+    }
+}
+
 // Leaves of many triangles under a sky and a wide sun; some are instances.
 Scene leaves() {
     Scene scene;
