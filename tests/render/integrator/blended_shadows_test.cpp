@@ -29,7 +29,7 @@ TEST(Transmittance, IsFoundFromItsDepth) {
         EXPECT_NEAR(transmittance_of(optical_depth(t)), t, 1e-7f * t);
     }
     EXPECT_EQ(transmittance_of(opaque_depth), 0);
-    EXPECT_GT(transmittance_of(opaque_depth - (2u << 24)), 0);
+    EXPECT_GT(transmittance_of(opaque_depth - (25u << 24)), 0); // the least normal number is 2^-126; rendering flushes smaller ones to 0
 }
 
 TEST(Transmittance, OfManySurfacesIsTheProduct) {
