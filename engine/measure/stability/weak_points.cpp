@@ -23,7 +23,7 @@ constexpr WeakPoint spots[] = {
     {17, "solid-angle sampling of small triangles", "areas are sampled, never spherical triangles"},
     {18, "importance maps", "cells between texel centres with exact probabilities; densities above 0 wherever the filtered map is"},
     {19, "stacks of transparency",
-     "opacity decided inside the traversal, by a hash of ray, triangle and instance; shadow rays add logarithms as integers"},
+     "opacity decided inside the traversal, each triangle a dimension of the sampler; transmittances add up as integer logarithms"},
     {20, "nested and thin solids", "inside and outside by the geometric normal; absorption on the segment within"},
     {21, "total internal reflection", "g^2 = eta^2 - 1 + c^2 clamped at 0"},
     {22, "range of the output", "single precision all the way to the file"},

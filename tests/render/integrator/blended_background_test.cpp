@@ -1,6 +1,7 @@
 // Path rays see the background behind blended surfaces without noise by chance, and where they stop by chance, the samples of a pixel
 // are stratified.
 #include "render/renderer.h"
+#include "tests/render/integrator/strategy_shots.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
@@ -133,15 +134,6 @@ Scene leaves() {
     place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
     scene.view = looking({0, 1.2f, 3.5f}, {0, 0.5f, 0}, 0.8f);
     return scene;
-}
-
-std::vector<Measured> shot(const Scene& scene, Strategy strategy, int64_t spp, int reuse = 1) {
-    RenderSettings settings = settings_for(32, 32, spp);
-    settings.strategy = strategy;
-    settings.seed = 1 + uint32_t(strategy) + uint32_t(reuse);
-    settings.max_bounces = 3;
-    settings.reuse = reuse;
-    return render(scene, settings).blocks(16, 16);
 }
 
 TEST(BlendedBackground, StrategiesAgree) {

@@ -1,6 +1,7 @@
 // Shadow rays carry the product of the transmittances of blended surfaces: no noise by chance, the same mean as BSDF sampling, and
 // masks as before.
 #include "render/bvh/transmittance.h"
+#include "tests/render/integrator/strategy_shots.h"
 #include "tests/render/irradiance.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
@@ -259,15 +260,6 @@ std::vector<LitScene> covers() {
         }
     });
     return all;
-}
-
-std::vector<Measured> shot(const Scene& scene, Strategy strategy, int64_t spp, int reuse = 1) {
-    RenderSettings settings = settings_for(32, 32, spp);
-    settings.strategy = strategy;
-    settings.seed = 1 + uint32_t(strategy) + uint32_t(reuse);
-    settings.max_bounces = 3;
-    settings.reuse = reuse;
-    return render(scene, settings).blocks(16, 16);
 }
 
 TEST(BlendedShadows, AgreeWithBsdfSampling) {
