@@ -7,6 +7,7 @@
 #include "render/diagnostics/health.h"
 #include "render/film/path_counts.h"
 #include "render/film/stage_times.h"
+#include "render/first_hit_planes.h"
 
 #include <cstdint>
 #include <memory>
@@ -60,6 +61,9 @@ struct Frame {
     std::vector<float> depth;          // metres along the ray; 0 on a miss; empty unless requested
     std::vector<uint32_t> object_id;   // Id<Node>.value, 0 on a miss; empty unless requested
     std::vector<uint32_t> material_id; // Id<Material>.value; empty unless requested
+
+    // By which a coarse image is enlarged after denoising (joint_upsampling.h); null: not at all.
+    FirstHitPlanesPtr first_hits;
 
     // Radiance by number of scatterings: 0 directly visible, 1 scattered once, ...; the last holds all further ones. They sum to
     // the beauty. Empty unless requested.

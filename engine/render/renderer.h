@@ -6,6 +6,7 @@
 #include "render/compile/compiled_info.h"
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_size.h"
+#include "render/first_hit_planes.h"
 #include "render/frame.h"
 #include "render/light_mix/light_groups.h"
 #include "scene/render_settings.h"
@@ -73,6 +74,15 @@ public:
     // (learned_sampling.h), path reuse and smooth edges (reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
     // sample at full resolution. False if stopped.
     bool decide(const std::function<bool()>& wanted = {});
+
+    // First hits in the last applied scene at full size, which joint upsampling of coarse images needs (joint_upsampling.h). Kept while
+    // edits change only light; null: none. Traced through pixel centres.
+    FirstHitPlanesPtr first_hits() const;
+    FirstHitPlanesPtr trace_first_hits();
+    // Keeps these instead, of a film of the last applied scene.
+    void keep_first_hits(FirstHitPlanesPtr planes);
+    // False if the camera has an aperture, or the image is transparent: then a first hit does not say what a pixel shows.
+    bool has_sharp_first_hits() const;
 
     // The film so far, divided by its sample counts. The second overload reuses the memory of an old frame and does not estimate
     // the error, which costs as much as some hundredths of a sample.

@@ -17,6 +17,14 @@ namespace {
 // True during the pilot, after its first half was stored.
 bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_samples / 2 && samples < SampleAllocation::pilot_samples; }
 
+// True if the camera sees the same surfaces with the same albedo. The background counts as no surface.
+bool keeps_first_hits(const Scene& before, const Scene& after, const Changes& changes) {
+    return changes.only_light() && std::ranges::all_of(changes.materials, [&](Id<Material> id) {
+               const Material *a = before.materials.find(id), *b = after.materials.find(id);
+               return a && b && same_but_for_emission(*a, *b);
+           });
+}
+
 } // namespace
 
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>(options)) {}
@@ -30,6 +38,7 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
     mixing = groups ? mixing_of(*groups, whole).value() : Mixing{};
     Film::require_memory({now.width, now.height, options.planes, false, now.adaptive, int(mixing.gains.size())});
     scene.update(now_expanded, now, todo, workers, groups.get());
+    if (!changes || !keeps_first_hits(*expanded, now_expanded, *changes)) first_hits.reset();
     if (groups) scene.aim(mixing.gains);
     expanded = std::move(now_expanded);
     settings = now;

@@ -52,6 +52,7 @@ struct Renderer::State {
     bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
     bool first_as_others = false;                      // the first sample is rendered as the pilots decide for the others
     int divider = 1;
+    FirstHitPlanesPtr first_hits; // of the scene; null: none
     const Kernel* kernel = nullptr;
     std::string kernel_name;
     double seconds_setup = 0;

@@ -11,7 +11,7 @@ namespace {
 const char* const main_source = R"(
 uniform sampler2D image, denoised;
 uniform float raw_weight, denoised_weight;
-uniform vec2 denoised_scale;
+uniform vec2 image_scale, denoised_scale;
 uniform bool over_checker;
 #ifdef ALL_STEPS
 float squares() {
@@ -21,7 +21,7 @@ float squares() {
 #endif
 // display_color is the costly part, and software OpenGL computes both sides of a condition: it is called once.
 void main() {
-    vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+    vec4 pixel = texelFetch(image, ivec2(gl_FragCoord.xy * image_scale), 0);
     vec3 color = raw_weight * pixel.rgb;
     if (denoised_weight != 0.0) color += denoised_weight * texelFetch(denoised, ivec2(gl_FragCoord.xy * denoised_scale), 0).rgb;
 #ifdef ALL_STEPS
@@ -37,6 +37,8 @@ void main() {
 // Milliseconds between checks of the clock: the time of a step is only predicted from the previous one, and other threads can
 // delay it.
 constexpr double max_step = 2.5;
+// Predicted milliseconds up to which a denoised image is drawn finer than its coarse frame: an edit must show at once.
+constexpr double max_finer_milliseconds = 16, few_pixels = 1e5; // these are always fast: the speed of small images says little
 
 using Clock = std::chrono::steady_clock;
 
@@ -147,7 +149,13 @@ void DisplayPass::upload(int width, int height, Values rgba) {
 
 void DisplayPass::begin(const DisplayLook& look) {
     look_ = look;
-    if (common_) next_row_ = 0;
+    if (!common_) return;
+    const double fine = double(denoised_.width) * double(denoised_.height);
+    const bool finer = look.mix.denoised_weight != 0 && denoised_.width > image_.width &&
+                       fine <= std::max(few_pixels, drawing_.pixels_per_millisecond * max_finer_milliseconds);
+    width_ = finer ? denoised_.width : image_.width;
+    height_ = finer ? denoised_.height : image_.height;
+    next_row_ = 0;
 }
 
 void DisplayPass::draw_rows(int first, int count) {
@@ -161,8 +169,11 @@ void DisplayPass::draw_rows(int first, int count) {
     set(program, "raw_weight", look_.mix.raw_weight);
     set(program, "denoised_weight", look_.mix.denoised_weight);
     set(program, "over_checker", int(look_.over_checker));
-    glUniform2f(glGetUniformLocation(program, "denoised_scale"), float(denoised_.width) / float(width_),
-                float(denoised_.height) / float(height_));
+    const auto set_scale = [&](const char* name, const SourceImage& source) {
+        glUniform2f(glGetUniformLocation(program, name), float(source.width) / float(width_), float(source.height) / float(height_));
+    };
+    set_scale("image_scale", image_);
+    set_scale("denoised_scale", denoised_);
     glActiveTexture(GL_TEXTURE0 + image_unit);
     glBindTexture(GL_TEXTURE_2D, image_.texture.name());
     glActiveTexture(GL_TEXTURE0 + denoised_unit);

@@ -39,7 +39,8 @@ public:
     void upload_denoised(int width, int height, const std::shared_ptr<const std::vector<float>>& rgb) {
         upload_denoised(width, height, Values(rgb, rgb->data()));
     }
-    // Begins a new image from the last uploads, at the frame's resolution; cancels one that is in progress.
+    // Begins a new image from the last uploads; cancels one that is in progress. At the frame's resolution, or at that of an enlarged
+    // denoised image (DenoisedImage::is_enlarged) if it is shown and drawing it is fast.
     void begin(const DisplayLook& look);
     // Continues for the given number of milliseconds, or slightly longer. A GPU finishes at once; with a software rasterizer a
     // large image takes several UI frames, without blocking any of them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace blush {
 
@@ -55,7 +56,9 @@ std::string shown_text(const DenoiseView& view, const Frame& frame, const Denois
     std::string text = view.show == DenoiseView::Show::denoised ? "denoised"
                        : view.show == DenoiseView::Show::blend  ? fmt::format("blend {:.0f} %", 100 * view.blend)
                                                                 : "difference";
-    if (denoised->divider != frame.divider) return text + fmt::format(" of 1/{} size", denoised->divider);
+    const std::string_view edges = denoised->is_enlarged ? ", edges sharpened" : "";
+    if (denoised->divider != frame.divider) return text + fmt::format(" of 1/{} size{}", denoised->divider, edges);
+    text += edges;
     const int64_t samples = frame.samples - denoised->samples;
     if (samples > 0)
         text += fmt::format(", {} spp and {:.1f} s behind", samples, std::max(0.0, frame.seconds - denoised->rendered_seconds));

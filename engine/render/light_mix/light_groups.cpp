@@ -178,13 +178,6 @@ bool same_but_for_emission(Light before, const Light& after) {
     return before == after;
 }
 
-bool same_but_for_emission(Material before, const Material& after) {
-    before.name = after.name;
-    before.emissive = after.emissive;
-    before.emissive_strength = after.emissive_strength;
-    return before == after;
-}
-
 bool same_but_for_emission(Environment before, const Environment& after) {
     before.color = after.color;
     before.intensity = after.intensity;
@@ -278,6 +271,13 @@ bool no_surface_becomes_emissive(const Scene& before, const Scene& now) {
 }
 
 } // namespace
+
+bool same_but_for_emission(Material before, const Material& after) {
+    before.name = after.name;
+    before.emissive = after.emissive;
+    before.emissive_strength = after.emissive_strength;
+    return before == after;
+}
 
 int LightGroups::of_light(Id<Node> node) const { return found(light_nodes, node, 0); }
 

@@ -34,9 +34,10 @@ DenoiserMaker denoiser_maker(std::filesystem::path weights, unsigned threads, bo
     };
 }
 
-BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release)
-    : maker_(std::move(maker)), grace_seconds_(grace_seconds), gate_(gate), on_answer_(std::move(on_answer)),
-      on_release_(std::move(on_release)) {
+BackgroundDenoiser::BackgroundDenoiser(DenoiserMaker maker, unsigned threads, bool low_priority, double grace_seconds, PauseGate& gate,
+                                       OnAnswer on_answer, OnRelease on_release)
+    : maker_(std::move(maker)), threads_(threads), low_priority_(low_priority), grace_seconds_(grace_seconds), gate_(gate),
+      on_answer_(std::move(on_answer)), on_release_(std::move(on_release)) {
     if (maker_) thread_ = std::thread([this] { run(); });
 }
 
@@ -81,6 +82,11 @@ double BackgroundDenoiser::coarse_speed() const {
     return wanted_ && failure_.empty() ? cadence_.coarse_speed() : 0;
 }
 
+bool BackgroundDenoiser::is_on() const {
+    const std::lock_guard lock(mutex_);
+    return wanted_ && maker_ && failure_.empty();
+}
+
 std::string BackgroundDenoiser::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;
@@ -117,13 +123,18 @@ Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, 
 BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
     try {
         if (!denoise_) denoise_ = maker_();
+        if (!workers_) workers_.emplace(threads_, low_priority_);
         Result<std::vector<Denoised>> all = denoise_all(task, quality);
         if (!all) return {nullptr, all.error().text()};
         if (all->empty()) return {};
         scales_.clear();
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
-        return {denoised_image(*task.frame, quality, *std::move(all)), {}};
+        const double preparing = all->front().seconds_of_preparation;
+        if (!task.frame->first_hits) return {denoised_image(*task.frame, quality, *std::move(all)), {}, preparing};
+        const double begun = now();
+        DenoisedPtr denoised = denoised_image(*task.frame, quality, *std::move(all), &*workers_);
+        return {std::move(denoised), {}, preparing + now() - begun};
     } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
         return {nullptr, e.what()};
     }
@@ -171,8 +182,7 @@ void BackgroundDenoiser::run() {
         lock.unlock();
         const double begun = now(), shut_before = gate_.closed_seconds();
         Outcome outcome = denoise(task, *decision.quality);
-        const double preparing = outcome.denoised ? outcome.denoised->denoised.seconds_of_preparation : 0;
-        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before) - preparing;
+        const double seconds = now() - begun - (gate_.closed_seconds() - shut_before) - outcome.seconds_not_denoising;
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.denoised != nullptr);
         failure_ = std::move(outcome.failure);

@@ -1,6 +1,7 @@
 // Denoises frames of a session on a thread of its own, when DenoiseCadence schedules it, without delaying rendering.
 #pragma once
 
+#include "core/parallel.h"
 #include "render/session/denoise_cadence.h"
 #include "render/session/denoised_image.h"
 #include "render/session/pause_gate.h"
@@ -9,6 +10,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,8 +33,9 @@ public:
     using OnRelease = std::function<void()>;
     // Empty maker: nothing is denoised. Otherwise called on the denoiser thread, for the first image and for the first one after
     // a release. `gate`: the thread pauses there between network layers while the window needs the processor; waiting for a
-    // promised image interrupts the pause.
-    BackgroundDenoiser(DenoiserMaker maker, double grace_seconds, PauseGate& gate, OnAnswer on_answer, OnRelease on_release);
+    // promised image interrupts the pause. `threads`, `low_priority`: to enlarge coarse images, as for Workers.
+    BackgroundDenoiser(DenoiserMaker maker, unsigned threads, bool low_priority, double grace_seconds, PauseGate& gate, OnAnswer on_answer,
+                       OnRelease on_release);
     // Stops within one layer of the network, and joins.
     ~BackgroundDenoiser();
     BackgroundDenoiser(const BackgroundDenoiser&) = delete;
@@ -45,6 +48,8 @@ public:
     bool offer(uint64_t image, FramePtr frame);
     // Expected seconds per megapixel to denoise a first, coarse image; 0 if such images are not denoised or the speed is not known yet.
     double coarse_speed() const;
+    // True while denoised images are wanted and can be made.
+    bool is_on() const;
     // True while the denoiser should run alone: rendering pauses. False again before the result is handed over, or before want()
     // returns.
     bool pauses_rendering() const { return pauses_rendering_; }
@@ -60,6 +65,7 @@ private:
     struct Outcome {
         DenoisedPtr denoised;
         std::string failure;
+        double seconds_not_denoising = 0; // of preparation of the network, and of enlarging
     };
 
     void run();
@@ -76,6 +82,8 @@ private:
     double seconds_to_release() const;
 
     DenoiserMaker maker_;
+    unsigned threads_;
+    bool low_priority_;
     double grace_seconds_;
     PauseGate& gate_;
     OnAnswer on_answer_;
@@ -96,6 +104,7 @@ private:
     // Used only by the denoiser thread: the denoiser while it exists, the exposure scales of the last image (one per light group
     // if groups are mixed) and that image.
     DenoiseFunction denoise_;
+    std::optional<Workers> workers_; // empty until the first image is denoised
     std::vector<float> scales_;
     uint64_t scale_image_ = 0;
     std::thread thread_;

@@ -1,6 +1,7 @@
 #include "render/session/denoised_image.h"
 
 #include "core/math.h"
+#include "render/denoise/joint_upsampling.h"
 #include "render/light_mix/light_mix.h"
 
 #include <algorithm>
@@ -14,8 +15,9 @@ PixelView view_of(const std::vector<Vec3>& plane) { return {span_of(plane), 3}; 
 DenoisedImage image_of(const Frame& source, DenoiseQuality quality) {
     DenoisedImage image;
     image.revision = source.revision;
-    image.width = source.width;
-    image.height = source.height;
+    image.is_enlarged = source.first_hits != nullptr;
+    image.width = image.is_enlarged ? source.first_hits->width : source.width;
+    image.height = image.is_enlarged ? source.first_hits->height : source.height;
     image.divider = source.divider;
     image.samples = source.samples;
     image.rendered_seconds = source.seconds;
@@ -39,7 +41,11 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
     return inputs;
 }
 
-DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised) {
+DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised, const Workers* workers) {
+    if (source.first_hits) {
+        const FirstHitPlanes coarse{source.width, source.height, source.albedo, source.normal, source.depth, {}};
+        for (Denoised& d : denoised) d.rgb = upsample_jointly(d.rgb, coarse, *source.first_hits, workers);
+    }
     auto image = std::make_shared<DenoisedImage>(image_of(source, quality));
     if (source.groups.empty()) {
         image->denoised = std::move(denoised.front());

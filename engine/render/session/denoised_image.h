@@ -24,10 +24,12 @@ struct DenoisedGroups {
 struct DenoisedImage {
     // Of the frame that it was made from.
     uint64_t revision = 0;
-    int width = 0, height = 0, divider = 1;
+    int divider = 1;
     int64_t samples = 0;
     double rendered_seconds = 0;
 
+    int width = 0, height = 0; // of the frame or, if enlarged, of its first hits
+    bool is_enlarged = false;  // by first hits (joint_upsampling.h)
     DenoiseQuality quality = DenoiseQuality::fast;
     Denoised denoised;                            // of the whole image; with groups, the sum of the denoised groups, each times its gain
     std::shared_ptr<const DenoisedGroups> groups; // null: denoised as a whole
@@ -39,8 +41,9 @@ using DenoisedPtr = std::shared_ptr<const DenoisedImage>;
 // for each light group before its gain. They point into the frame.
 std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
-// Combines the results for denoise_inputs(); groups are mixed with the frame's gains.
-DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised);
+// Combines the results for denoise_inputs(); groups are mixed with the frame's gains. Enlarged by the frame's first hits, if it has them.
+// Null workers: on this thread.
+DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised, const Workers* workers = nullptr);
 // The same image with other gains.
 DenoisedPtr remixed(const DenoisedImage& image, const Gains& gains);
 // The groups, each denoised separately; it must have groups.

@@ -23,6 +23,7 @@ std::shared_ptr<Frame> FramePool::take() {
     // The mutex orders all reads of the old image before the first write of the new one.
     const auto give_back = [shelf = shelf_](Frame* done) {
         std::unique_ptr<Frame> returned(done);
+        returned->first_hits.reset(); // they may keep another frame from being returned
         const std::lock_guard lock(shelf->mutex);
         if (shelf->frames.size() < max_kept) shelf->frames.push_back(std::move(returned));
     };

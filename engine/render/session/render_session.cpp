@@ -2,6 +2,7 @@
 
 #include "render/renderer.h"
 #include "render/session/error_cadence.h"
+#include "render/session/first_hit_sharing.h"
 #include "render/session/frame_pool.h"
 #include "render/session/pause_gate.h"
 #include "render/session/scheduler.h"
@@ -83,6 +84,7 @@ struct RenderSession::State {
     bool has_scene = false, has_first_image = false;
     bool selects_lights_by_mix = false; // light selection follows the current mix
     double first_image_seconds = 0, samples_per_second = 0;
+    FirstHitSharing first_hits;
     ErrorCadence error_cadence;
     // Latest error estimate of this image; frames without their own reuse it.
     struct Estimated {
@@ -185,6 +187,10 @@ void RenderSession::State::mix_denoised(const Frame& frame) {
 // Publishes the film as it is.
 void RenderSession::State::publish() {
     const std::shared_ptr<Frame> frame = resolved();
+    if (options.first_hit_planes && denoiser->is_on())
+        first_hits.share(*renderer, frame, has_first_image);
+    else
+        renderer->keep_first_hits(nullptr);
     mix_denoised(*frame);
     if (!has_first_image) first_image_seconds = seconds_between(submitted_at, Clock::now());
     has_first_image = true;
@@ -389,7 +395,7 @@ RenderSession::RenderSession(const SessionOptions& options, std::function<void()
     state_->options = options;
     state_->on_frame = on_frame ? std::move(on_frame) : [] {};
     state_->denoiser = std::make_unique<BackgroundDenoiser>(
-        options.denoiser, options.denoiser_grace, state_->gate,
+        options.denoiser, options.threads, options.low_priority, options.denoiser_grace, state_->gate,
         [s = state_.get()](uint64_t image, const FramePtr& source, DenoisedPtr denoised) {
             s->receive_denoised(image, source, std::move(denoised));
         },

@@ -55,6 +55,14 @@ RgbImage ErrorMeter::displayed(RgbImage image) const {
 
 ShownError ErrorMeter::of(const Images& images, bool denoised) const {
     const Frame& frame = *images.frame;
+    // As the display pass draws it with a GPU.
+    if (denoised && images.denoised && images.denoised->width > frame.width) {
+        const DenoisedImage& image = *images.denoised;
+        RgbImage shown{image.width, image.height, {}};
+        const std::vector<float>& rgb = image.denoised.rgb;
+        for (size_t i = 0; i < rgb.size(); i += 3) shown.pixels.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
+        return of(shown);
+    }
     const DenoiseView view{.show = denoised ? DenoiseView::Show::denoised : DenoiseView::Show::raw};
     const std::vector<float> rgb = mixed_image(frame, images.denoised.get(), mix_of(view, images.denoised != nullptr));
     RgbImage shown{frame.width, frame.height, {}};

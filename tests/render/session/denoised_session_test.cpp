@@ -58,7 +58,11 @@ private:
                               !input.albedo.values.empty() && !input.normal.values.empty()});
             number = calls_.size();
         }
-        if (instead) return instead(number, wanted);
+        if (instead) {
+            Result<std::optional<Denoised>> answered = instead(number, wanted);
+            if (answered && *answered) (*answered)->rgb.resize(3 * size_t(input.width) * size_t(input.height));
+            return answered;
+        }
         Denoised denoised;
         for (size_t i = 0; i < size_t(input.width) * size_t(input.height); ++i)
             for (size_t k = 0; k < 3; ++k) denoised.rgb.push_back(input.color.values[i * size_t(input.color.stride) + k]);

@@ -120,5 +120,39 @@ TEST_F(DisplayPassTest, FalseColoursMatchFiles) {
     }
 }
 
+TEST_F(DisplayPassTest, AnEnlargedDenoisedImageIsDrawnAtItsSize) {
+    DisplayPass pass;
+    const auto shader = color->display_shader({});
+    ASSERT_TRUE(shader && pass.set_shader(*shader));
+    const auto red_of = [&](int x, int y, int w) {
+        std::vector<unsigned char> bytes(size_t(w) * size_t(w) * 4);
+        glBindTexture(GL_TEXTURE_2D, pass.texture());
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+        return int(bytes[size_t(4 * (y * w + x))]);
+    };
+    const auto width_drawn = [&](const ImageMix& mix) {
+        pass.begin({{}, mix});
+        while (pass.busy()) pass.advance(1000);
+        GLint w = 0;
+        glBindTexture(GL_TEXTURE_2D, pass.texture());
+        glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &w);
+        return int(w);
+    };
+    // A bright pixel in the lower right corner of each.
+    std::vector<float> coarse(4 * 2 * 2, 0.f), fine(3 * 8 * 8, 0.f);
+    coarse[4 * 3] = 1;
+    fine[3 * 63] = 1;
+    pass.upload(2, 2, coarse);
+    pass.upload_denoised(8, 8, std::make_shared<const std::vector<float>>(fine));
+    EXPECT_EQ(width_drawn({1, 0}), 2);
+    EXPECT_EQ(width_drawn({0, 1}), 8);
+    EXPECT_GT(red_of(7, 7, 8), 100);
+    EXPECT_LT(red_of(6, 7, 8), 10);
+    EXPECT_LT(red_of(4, 4, 8), 10);
+    EXPECT_EQ(width_drawn({0.5f, 0.5f}), 8);
+    EXPECT_GT(red_of(4, 4, 8), 100) << "the raw image is as coarse as before";
+    EXPECT_LT(red_of(3, 4, 8), 10);
+}
+
 } // namespace
 } // namespace blush::TEST_FILE

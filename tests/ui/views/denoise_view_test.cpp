@@ -81,6 +81,8 @@ TEST(DenoiseView, TextNamesTheImageAndItsDelay) {
     EXPECT_EQ(shown_text({Show::difference, 0}, frame, &denoised), "difference");
     denoised.divider = 4;
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size");
+    denoised.is_enlarged = true;
+    EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size, edges sharpened");
 }
 
 } // namespace
