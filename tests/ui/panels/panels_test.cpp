@@ -420,7 +420,7 @@ TEST_F(Panels, TheLightMixShowsItsGroups) {
     image->gains = {{1, 1, 1}, {2, 2, 2}};
     image->group_shares.resize(2);
     frame = image;
-    const std::optional<Mixing> mixing = mixing_of(*image->light_groups, sample.project.scene);
+    const std::optional<Mixing> mixing = compared_mixing(*image->light_groups, sample.project.scene);
     ASSERT_TRUE(mixing);
     for (const char* unfolded : {"", "Lamp"})
         for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {
