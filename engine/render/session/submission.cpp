@@ -25,6 +25,16 @@ Changes changes_since(const Submission* last, const SubmissionContent& content) 
     return last ? diff(last->scene, last->settings, content.scene, content.settings) : Changes{};
 }
 
+Changes LastContent::changes_to(const SubmissionContent& content) const {
+    return is_set_ ? diff(scene_, settings_, content.scene, content.settings) : Changes{};
+}
+
+void LastContent::keep(const SubmissionContent& content) {
+    is_set_ = true;
+    scene_ = content.scene;
+    settings_ = content.settings;
+}
+
 SubmissionPtr next_submission(const Submission* last, uint64_t revision, const SubmissionContent& content, Changes changes,
                               bool has_loaded_samples) {
     auto next = std::make_shared<Submission>(Submission{.revision = revision,

@@ -133,6 +133,27 @@ TEST_F(Submissions, RandomEditsContinueItAsAComparisonWithItsBaseDecides) {
     EXPECT_GT(begun, 1000u);
 }
 
+// What an edit that does not reach the image leaves behind is compared once, however often the window asks.
+TEST_F(Submissions, ContentIsComparedWithTheContentBefore) {
+    scene.mix = {};
+    LastContent last_content;
+    const auto changes = [&] {
+        const SubmissionContent content{scene, settings};
+        Changes differences = last_content.changes_to(content);
+        last_content.keep(content);
+        return differences;
+    };
+    EXPECT_FALSE(changes().any());
+    edit_lamp([](Light& lamp) { lamp.name = "Key"; });
+    EXPECT_FALSE(changes().any());
+    EXPECT_TRUE(last_content.scene().lights.shares_storage(scene.lights));
+    edit_lamp([](Light& lamp) { lamp.intensity *= 2; });
+    EXPECT_EQ(changes().lights, std::vector{sample.lamp});
+    settings.spp += 8;
+    EXPECT_TRUE(changes().stop_rules);
+    EXPECT_FALSE(changes().any());
+}
+
 TEST_F(Submissions, MorePlanesBeginAnImageFewerDoNot) {
     EXPECT_FALSE(submit({.bounces = 4}).continues_image);
     EXPECT_TRUE(submit().continues_image);
