@@ -7,7 +7,8 @@ void LiveMix::follow(const FramePtr& frame, const Document& document) {
     if (groups == groups_ && document.revision() == revision_) return;
     groups_ = groups;
     revision_ = document.revision();
-    mixing_ = groups ? mixing_of(*groups, document.project().scene) : std::nullopt;
+    // Compares again: the displayed image follows an edit before it is submitted.
+    mixing_ = groups ? compared_mixing(*groups, document.project().scene) : std::nullopt;
 }
 
 } // namespace blush

@@ -134,6 +134,9 @@ template <class Fn> void for_each_lane(unsigned lanes, Fn fn) {
     for (; lanes; lanes &= lanes - 1) fn(std::countr_zero(lanes));
 }
 
+// The order of the additions depends on the width.
+inline float sum_lanes(Wide x) { return stdx::reduce(x); }
+
 // ---- memory: n consecutive numbers starting at p, for n = width
 template <class V, class T> V load(const T* p) {
     if constexpr (std::is_arithmetic_v<V>)

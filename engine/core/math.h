@@ -11,7 +11,7 @@ namespace blush::inline BLUSH_ISA {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
-constexpr float inv_pi = 0.318309886183791f;
+constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 constexpr float infinity = __builtin_inff();
 constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 
@@ -104,7 +104,7 @@ template <class F> struct SinCos { F sin, cos; };
 template <class F> SinCos<F> sincos_turns(const F& u) {
     const F x = u * 4.f;
     const F q = floor(x + 0.5f);
-    const F r = (x - q) * 1.57079632679f;
+    const F r = (x - q) * (pi / 2);
     const F r2 = r * r;
     const F s = r * (1.f + r2 * (-1.6666654611e-1f + r2 * (8.3321608736e-3f + r2 * -1.9515295891e-4f)));
     const F c = 1.f + r2 * (-0.5f + r2 * (4.166664568e-2f + r2 * (-1.388731625e-3f + r2 * 2.443315712e-5f)));
@@ -150,7 +150,7 @@ template <class F> F atan2_turns(const F& y, const F& x) {
     const F q = select(big, (r - t) / (1.f + r * t), r);
     const F q2 = q * q;
     const F p = q * (1.f + q2 * (-0.333333333f + q2 * (0.2f + q2 * (-0.142857143f + q2 * (0.111111111f + q2 * -0.0909090909f)))));
-    F a = (select(big, F(0.392699082f), F(0.f)) + p) * 0.159154943f;
+    F a = (select(big, F(pi / 8), F(0.f)) + p) * (inv_pi / 2);
     a = select(ay > ax, 0.25f - a, a);
     a = select(x < F(0.f), 0.5f - a, a);
     return select(y < F(0.f), -a, a);

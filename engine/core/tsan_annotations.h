@@ -4,6 +4,9 @@
 
 #ifdef BLUSH_TSAN
 #include <sanitizer/tsan_interface.h>
+// No header of GCC declares them.
+extern "C" void AnnotateIgnoreWritesBegin(const char* file, int line);
+extern "C" void AnnotateIgnoreWritesEnd(const char* file, int line);
 #endif
 
 namespace blush {
@@ -17,6 +20,20 @@ public:
     void release() const {}
     void acquire() const {}
 #endif
+};
+
+// While it exists, ThreadSanitizer ignores what this thread writes: for an object that a library makes, and whose threads read it later.
+class IgnoredWrites {
+public:
+#ifdef BLUSH_TSAN
+    IgnoredWrites() { AnnotateIgnoreWritesBegin(__FILE__, __LINE__); }
+    ~IgnoredWrites() { AnnotateIgnoreWritesEnd(__FILE__, __LINE__); }
+#else
+    IgnoredWrites() {}
+    ~IgnoredWrites() {}
+#endif
+    IgnoredWrites(const IgnoredWrites&) = delete;
+    IgnoredWrites& operator=(const IgnoredWrites&) = delete;
 };
 
 } // namespace blush

@@ -32,10 +32,12 @@ Renderer::~Renderer() = default;
 
 Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene) {
     Scene now_expanded = expand_area_lights(whole, &meshes, &workers);
+    // Not the changes of a submission: the renderer skips submissions, and expansion spreads a change to records that it does not name.
+    // Solo switches other lights off, a clip moves nodes, a normal map gives meshes tangents, one more disk changes all disks.
     const std::optional<Changes> changes = expanded ? std::optional(diff(*expanded, settings, now_expanded, now)) : std::nullopt;
     const UpdatePlan todo = changes ? plan(*changes) : full_plan();
     groups = std::move(groups_of_scene);
-    mixing = groups ? mixing_of(*groups, whole).value() : Mixing{};
+    mixing = groups ? mixing_of(*groups, whole, {}).value() : Mixing{};
     Film::require_memory({now.width, now.height, options.planes, false, now.adaptive, int(mixing.gains.size())});
     scene.update(now_expanded, now, todo, workers, groups.get());
     if (!changes || !keeps_first_hits(*expanded, now_expanded, *changes)) first_hits.reset();

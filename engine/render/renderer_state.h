@@ -83,7 +83,7 @@ struct Renderer::State {
     // If the scene differs from the film only in the light mix, applies the mix and returns true.
     bool apply_mix(const Scene& whole, const RenderSettings& now) {
         if (!groups || !same_image(settings, now)) return false;
-        std::optional<Mixing> mix = mixing_of(*groups, whole);
+        std::optional<Mixing> mix = compared_mixing(*groups, whole);
         if (!mix) return false;
         set_mix(*std::move(mix));
         settings = now;

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -180,18 +181,18 @@ struct Light {
     float radius = 0;             // metres. point, spot: 0 is a point, else a sphere of the same intensity; disk, sphere: theirs
     float angle_radians = 0;      // sun: full angle it subtends; 0 is a perfectly parallel beam (the real sun: 0.00925)
     float inner_cone_radians = 0; // spot: half angles, KHR_lights_punctual
-    float outer_cone_radians = 0.7853982f;
-    float width = 1, height = 1;       // rectangle: metres, before the node's scale
-    bool two_sided = false;            // rectangle, disk
-    float spread_radians = 3.1415927f; // rectangle, disk: full angle of the cone of emission; pi is the half space
-    bool visible_to_camera = true;     // of lights with a size: visible to camera rays; reflections always show them
-    IesPtr ies;                        // point, spot: scales the intensity by direction
-    std::string ies_file;              // path of the profile
-    bool enabled = true;               // false is muted
-    bool solo = false;                 // while any light is solo, only solo lights emit; muted lights never do
-    std::string group;                 // light group, if groups are assigned by hand
-    ObjectSet lit_objects;             // light linking: objects that it lights
-    ObjectSet shadow_casters;          // light linking: objects that cast its shadows
+    float outer_cone_radians = std::numbers::pi_v<float> / 4;
+    float width = 1, height = 1;                      // rectangle: metres, before the node's scale
+    bool two_sided = false;                           // rectangle, disk
+    float spread_radians = std::numbers::pi_v<float>; // rectangle, disk: full angle of the cone of emission; pi is the half space
+    bool visible_to_camera = true;                    // of lights with a size: visible to camera rays; reflections always show them
+    IesPtr ies;                                       // point, spot: scales the intensity by direction
+    std::string ies_file;                             // path of the profile
+    bool enabled = true;                              // false is muted
+    bool solo = false;                                // while any light is solo, only solo lights emit; muted lights never do
+    std::string group;                                // light group, if groups are assigned by hand
+    ObjectSet lit_objects;                            // light linking: objects that it lights
+    ObjectSet shadow_casters;                         // light linking: objects that cast its shadows
     bool operator==(const Light&) const = default;
 };
 

@@ -22,7 +22,7 @@ float integrate_ggx_albedo(float alpha, float cos) {
             const Vec<Wide> wi = h * (2.f * dot(wo, h)) - wo;
             sum += select(wi.z > 0.f, 2.f * w * masking(Wide(alpha), wi), Wide(0.f));
         }
-    return stdx::reduce(sum) / (azimuths * heights);
+    return sum_lanes(sum) / (azimuths * heights);
 }
 
 } // namespace

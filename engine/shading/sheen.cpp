@@ -18,7 +18,7 @@ float integrate_sheen_albedo(float alpha, float cos) {
             sum += 2.f * w * charlie_f_cos(Wide(alpha), wo, Vec<Wide>{r * azimuth.cos, r * azimuth.sin, z});
         }
     }
-    return stdx::reduce(sum) * (2 * pi) / (azimuths * heights);
+    return sum_lanes(sum) * (2 * pi) / (azimuths * heights);
 }
 
 SheenTable make_sheen_table() {

@@ -261,19 +261,33 @@ TEST(Warnings, NothingIsVisible) {
     }
 }
 
-// A smooth mirror and a point without size.
-TEST(Warnings, LightThatCannotBeFound) {
-    const TemporaryFolder folder;
+// The triangle, of this material, and a point light without size.
+std::string lit_triangle_file(const TemporaryFolder& folder, const Json& material) {
     const std::string scene = triangle_file(folder, 2);
     Json json = Json::parse(std::ifstream(scene));
-    json["extensionsUsed"] = {"KHR_lights_punctual"};
+    json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume"};
     json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 10}}};
     json["nodes"].push_back({{"translation", {0.3, 0.3, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     json["scenes"][0]["nodes"].push_back(2);
     json["meshes"][0]["primitives"][0]["material"] = 0;
+    json["materials"] = {material};
+    std::ofstream(scene) << json;
+    return scene;
+}
+
+Json mirror(double roughness) { return {{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", roughness}}}}; }
+
+Json glass(double roughness) {
+    Json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
+    material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1;
+    material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 1; // solid
+    return material;
+}
+
+TEST(Warnings, LightThatCannotBeFound) {
+    const TemporaryFolder folder;
     for (const double roughness : {0.0, 0.5}) {
-        json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", roughness}}}}};
-        std::ofstream(scene) << json;
+        const std::string scene = lit_triangle_file(folder, mirror(roughness));
         const std::vector<std::string> arguments{"render", scene, "-o", folder / "a.exr", "--size", "32x24", "--spp", "16"};
         const Finished finished = test::blush(arguments);
         EXPECT_EQ(finished.exit_code, 0) << finished.err;
@@ -282,7 +296,36 @@ TEST(Warnings, LightThatCannotBeFound) {
         const Json error = test::blush_json(arguments)["error"];
         EXPECT_EQ(error["missing_light"].is_string(), smooth) << error;
         EXPECT_TRUE(error["relmse"].is_null() || !smooth) << error;
-        EXPECT_EQ(test::blush({"info", scene}).out.find("some light cannot be found") != std::string::npos, smooth);
+    }
+}
+
+// As text and as JSON: which light, by which paths, and what to do.
+TEST(Warnings, InfoNamesLightThatCannotBeFound) {
+    const TemporaryFolder folder;
+    const std::string begin = "some light cannot be found: that of point, spot and sun lights of zero size, ",
+                      end = "; give these lights a radius or an angle, or the material some roughness";
+    const struct {
+        Json material;
+        std::string paths; // empty: all light is found
+    } cases[]{{glass(0), "through smooth glass or by reflection in smooth surfaces"},
+              {mirror(0), "by reflection in smooth surfaces"},
+              {glass(0.5), ""},
+              {mirror(0.5), ""}};
+    for (const auto& [material, paths] : cases) {
+        const std::string scene = lit_triangle_file(folder, material), warning = begin + paths + end;
+        const Finished text = test::blush({"info", scene});
+        EXPECT_EQ(text.exit_code, 0) << text.err;
+        std::vector<std::string> said;
+        const Json json = test::blush_json({"info", scene});
+        for (const Json& line : json["warnings"])
+            if (line.get<std::string>().find("cannot be found") != std::string::npos) said.push_back(line);
+        if (paths.empty()) {
+            EXPECT_EQ(text.out.find("cannot be found"), std::string::npos) << material << text.out;
+            EXPECT_TRUE(said.empty()) << material << said.front();
+        } else {
+            EXPECT_NE(text.out.find("warning                " + warning + "\n"), std::string::npos) << material << text.out;
+            EXPECT_EQ(said, std::vector<std::string>{warning}) << material;
+        }
     }
 }
 

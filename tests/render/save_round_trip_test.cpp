@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -131,9 +132,10 @@ TEST(Saved, EveryKindOfLightRendersBitForBitAsBefore) {
 std::string save_ball(const GltfOrigin& origin, const TemporaryFolder& folder) {
     Geometry g;
     constexpr uint32_t n = 12;
+    constexpr float half_turn = std::numbers::pi_v<float>;
     for (uint32_t j = 0; j <= n; ++j)
         for (uint32_t i = 0; i <= n; ++i) {
-            const float u = 6.2831853f * float(i) / n, v = 3.1415927f * (float(j) + 0.5f) / (n + 1);
+            const float u = 2 * half_turn * float(i) / n, v = half_turn * (float(j) + 0.5f) / (n + 1);
             g.positions.push_back({std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)});
         }
     g.normals = g.positions;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <vector>
 
 namespace blush::test::TEST_FILE {
@@ -14,7 +15,7 @@ namespace {
 
 using namespace statistics;
 
-constexpr double sphere_area = 4 * 3.14159265358979;
+constexpr double sphere_area = 4 * std::numbers::pi;
 
 constexpr float guided_share = 0.375f;
 

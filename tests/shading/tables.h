@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <random>
 
 namespace blush {
@@ -20,7 +21,7 @@ public:
     float between(float low, float high) { return low + (high - low) * unit(); }
     bool coin() { return below(2) == 1; }
     Vec3 direction() {
-        const double y = 1 - 2 * (engine_() * 0x1p-64), phi = 6.283185307179586 * (engine_() * 0x1p-64), r = std::sqrt(1 - y * y);
+        const double y = 1 - 2 * (engine_() * 0x1p-64), phi = 2 * std::numbers::pi * (engine_() * 0x1p-64), r = std::sqrt(1 - y * y);
         return {float(r * std::cos(phi)), float(y), float(r * std::sin(phi))};
     }
 

@@ -7,6 +7,7 @@
 #include "shading/light.h"
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace blush::test {
@@ -160,7 +161,7 @@ ImageVariance image_variance(int rooms, int64_t spp) {
             const Receiver<float> to{origin + Vec3{place(x), 0.001f, place(y)}, {0, 1, 0}};
             const Given given = given_by(compiled.tables().lights, rooms, origin, to, int(place(x) / side), int(place(y) / side));
             const SelectionVariance relative = given.relative();
-            const double radiance = double(albedo) / 3.14159265358979 * given.seen, weight = radiance * radiance / double(spp) / all;
+            const double radiance = double(albedo) / std::numbers::pi * given.seen, weight = radiance * radiance / double(spp) / all;
             variance.oracle += weight * relative.oracle;
             variance.power += weight * relative.power;
         }

@@ -7,6 +7,7 @@
 #include "tests/support/sample_project.h"
 
 #include <array>
+#include <numbers>
 #include <type_traits>
 
 namespace blush::test {
@@ -57,7 +58,7 @@ Light light(Rng& rng) {
     l.width = uniform(rng, 0.1f, 2);
     l.height = uniform(rng, 0.1f, 2);
     l.two_sided = coin(rng);
-    l.spread_radians = coin(rng) ? uniform(rng, 0.1f, 3) : 3.1415927f;
+    l.spread_radians = coin(rng) ? uniform(rng, 0.1f, 3) : std::numbers::pi_v<float>;
     l.visible_to_camera = coin(rng);
     l.green_tint = uniform(rng, -0.05f, 0.05f);
     if (whole(rng, 0, 3) == 0) l.ies = lamp_profile(coin(rng));

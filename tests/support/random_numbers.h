@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 namespace blush::test {
@@ -17,7 +18,7 @@ struct RandomNumbers {
     Vec3 point(float reach) { return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)}; }
     // Uniform over the sphere.
     Vec3 direction() {
-        const float z = (*this)(-1, 1), turn = (*this)(0, 6.2831853f), r = std::sqrt(1 - z * z);
+        const float z = (*this)(-1, 1), turn = (*this)(0, 2 * std::numbers::pi_v<float>), r = std::sqrt(1 - z * z);
         return {r * std::cos(turn), r * std::sin(turn), z};
     }
 };

@@ -3,6 +3,7 @@
 #include "ui/window/theme.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace blush {
 namespace {
@@ -22,7 +23,7 @@ struct Pen {
     void box(float x0, float y0, float x1, float y1) const { draw.AddRect(at(x0, y0), at(x1, y1), color, 0.15f * half, 0, width); }
     void rays(float inner, float outer) const {
         for (int i = 0; i < 8; ++i) {
-            const float c = std::cos(float(i) * 0.785398f), s = std::sin(float(i) * 0.785398f);
+            const float angle = float(i) * std::numbers::pi_v<float> / 4, c = std::cos(angle), s = std::sin(angle);
             line(c * inner, s * inner, c * outer, s * outer);
         }
     }

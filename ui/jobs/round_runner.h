@@ -45,8 +45,10 @@ public:
     void measure(Input input) {
         {
             const std::lock_guard lock(mutex_);
-            if (last_ && last_->has_same_result(input)) return;
+            const bool same = last_ && last_->has_same_result(input);
+            // Kept even if it is the same: it shares storage with the next, whose comparison then reads no table.
             last_ = std::move(input);
+            if (same) return;
             pending_ = last_;
             state_ = {};
         }

@@ -2,10 +2,12 @@
 
 #include "ui/transform/rotation.h"
 
+#include <numbers>
+
 namespace blush {
 namespace {
 
-constexpr double half_pi = 1.57079632679489661923;
+constexpr double half_pi = std::numbers::pi / 2;
 constexpr double nearest_to_pole = half_pi - 1e-3;
 
 Vec3d forward(const View& view) { return rotate(view.rotation, {0, 0, -1}); }

@@ -5,6 +5,7 @@
 #include "ui/window/theme.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace blush {
 
@@ -25,7 +26,7 @@ void WorldPen::line(Vec3d a, Vec3d b) const {
 void WorldPen::circle(const Vec3d& centre, const Vec3d& x, const Vec3d& y) const {
     constexpr int steps = 48;
     for (int i = 0; i < steps; ++i) {
-        const double a = 6.28318530718 * i / steps, b = 6.28318530718 * (i + 1) / steps;
+        const double a = 2 * std::numbers::pi * i / steps, b = 2 * std::numbers::pi * (i + 1) / steps;
         line(centre + x * std::cos(a) + y * std::sin(a), centre + x * std::cos(b) + y * std::sin(b));
     }
 }

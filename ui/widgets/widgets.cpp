@@ -1,5 +1,6 @@
 #include "ui/widgets/widgets.h"
 
+#include "core/math.h"
 #include "core/text.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
@@ -160,7 +161,7 @@ bool Fields::number(const char* label, float& value, const NumberStyle& style) {
 }
 
 bool Fields::angle(const char* label, float& radians, const NumberStyle& style) {
-    constexpr float to_degrees = 57.29577951f;
+    constexpr float to_degrees = float(degrees_per_radian);
     NumberStyle degrees_style = style;
     degrees_style.unit = "°";
     degrees_style.format = "";

@@ -31,7 +31,7 @@ template <class F> F cone_at_camera(const CameraRecord& camera, const EstimatorS
 template <class F> F cone_width(const CameraRecord& camera, const EstimatorSettings& settings, const Path<F>& path, const F& t) {
     if (!settings.filter_textures) return F(0.f);
     // A cell of solid angle 1 / (cells * pdf) is 2 sqrt(1 / (pi * cells * pdf)) across.
-    constexpr float across = 4 * 0.3183098862f / cells_of_a_lobe;
+    constexpr float across = 4 * inv_pi / cells_of_a_lobe;
     const F lobe = min(F(sqrt(across / path.pdf)), F(max_cone_spread));
     const F spread = select(is_finite(path.pdf), lobe, F(camera.orthographic ? 0.f : camera_cone(camera, settings)));
     return max(F(path.cone + spread * t), F(0.f));

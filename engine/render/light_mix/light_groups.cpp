@@ -164,6 +164,7 @@ template <class Id> int found(const std::map<Id, int>& map, Id id, int otherwise
     return it == map.end() ? otherwise : it->second;
 }
 
+// Of scenes with solo applied, which leaves the flag in records that nothing uses.
 bool same_but_for_emission(Light before, const Light& after) {
     before.name = after.name;
     before.color = after.color;
@@ -175,6 +176,7 @@ bool same_but_for_emission(Light before, const Light& after) {
     before.keep_power = after.keep_power;
     before.group = after.group;
     before.enabled = after.enabled;
+    before.solo = after.solo;
     return before == after;
 }
 
@@ -248,8 +250,7 @@ bool same_members(const LightGroups& a, const LightGroups& b) {
 }
 
 // True if only emission, names and the mix differ.
-bool only_emission_differs(const Scene& before, const Scene& now) {
-    const Changes changes = diff(before, {}, now, {});
+bool only_emission_differs(const Scene& before, const Scene& now, const Changes& changes) {
     if (!changes.only_light()) return false;
     const auto same = [](const auto& a, const auto& b, const auto& ids) {
         return std::ranges::all_of(ids, [&](auto id) {
@@ -276,6 +277,7 @@ bool same_but_for_emission(Material before, const Material& after) {
     before.name = after.name;
     before.emissive = after.emissive;
     before.emissive_strength = after.emissive_strength;
+    before.solo = after.solo;
     return before == after;
 }
 
@@ -300,10 +302,10 @@ Vec3 channel_gain(const LightMix& mix, const std::string& group) {
     return {1, 1, 1};
 }
 
-std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
+std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene, const Changes& changes) {
     const Scene& base = groups.base;
     const Scene now = with_solo_applied(scene);
-    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now) || !no_surface_becomes_emissive(base, now))
+    if (base.mix.grouping != now.mix.grouping || !only_emission_differs(base, now, changes) || !no_surface_becomes_emissive(base, now))
         return std::nullopt;
     Scene renamed = with_names_of(base, now);
     if (groups.sharing > 0) renamed.mix = now.mix; // channels decide which groups have a plane
@@ -322,6 +324,10 @@ std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& scene) {
         mixing.gains.push_back(group.unlit ? Vec3{1, 1, 1} : *factor * mixing.channels.back());
     }
     return mixing;
+}
+
+std::optional<Mixing> compared_mixing(const LightGroups& groups, const Scene& now) {
+    return mixing_of(groups, now, diff(groups.base, {}, with_solo_applied(now), {}));
 }
 
 } // namespace blush

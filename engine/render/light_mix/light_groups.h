@@ -1,6 +1,7 @@
 // Groups of lights that share a film plane, for the light mix: by light, object, material or manual name.
 #pragma once
 
+#include "scene/changes.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -64,6 +65,10 @@ struct Mixing {
 };
 // Mix channels times the changes of each group's emission. Empty if gains cannot express the change: something else changed, a
 // colour was black and no longer is, members of a group changed differently, or the grouping changed.
-std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& now);
+// `changes`: from `groups.base` to `now`, or from any scene with a mixing for these groups: that one differs from the base in emission
+// alone, so what has not changed since needs no comparison.
+std::optional<Mixing> mixing_of(const LightGroups& groups, const Scene& now, const Changes& changes);
+// The same for a caller that knows no such changes: compares the scenes.
+std::optional<Mixing> compared_mixing(const LightGroups& groups, const Scene& now);
 
 } // namespace blush

@@ -55,8 +55,9 @@ struct RenderSession::State {
     SessionOptions options;
     std::function<void()> on_frame;
 
-    std::mutex submitting; // serialises submissions; guards last_submitted
+    std::mutex submitting; // serialises submissions; guards last_submitted and last_content
     SubmissionPtr last_submitted;
+    LastContent last_content; // of last_submitted, or newer without differences from it
 
     // Guards the pending submission and the published state.
     mutable std::mutex mutex;
@@ -378,6 +379,7 @@ void RenderSession::State::run() {
 SubmissionPtr RenderSession::State::submit(uint64_t revision, const SubmissionContent& content, Changes changes, FilmStatePtr film) {
     const SubmissionPtr next = next_submission(last_submitted.get(), revision, content, std::move(changes), film != nullptr);
     last_submitted = next;
+    last_content.keep(content);
     std::optional<PendingSubmission> replaced; // freed after unlocking
     {
         const std::lock_guard lock(mutex);
@@ -417,15 +419,18 @@ SubmissionPtr RenderSession::submit(uint64_t revision, const Scene& scene, const
                                     FilmStatePtr film) {
     const std::lock_guard submitting(state_->submitting);
     const SubmissionContent content{scene, settings, planes};
-    return state_->submit(revision, content, changes_since(state_->last_submitted.get(), content), std::move(film));
+    return state_->submit(revision, content, state_->last_content.changes_to(content), std::move(film));
 }
 
 SubmissionPtr RenderSession::submit_changes(uint64_t revision, const Scene& scene, const RenderSettings& settings, const PlaneSet& planes) {
     const std::lock_guard submitting(state_->submitting);
     const SubmissionContent content{scene, settings, planes};
     const Submission* last = state_->last_submitted.get();
-    Changes changes = changes_since(last, content);
-    if (last && !changes.any() && planes == last->planes) return nullptr;
+    Changes changes = state_->last_content.changes_to(content);
+    if (last && !changes.any() && planes == last->planes) {
+        state_->last_content.keep(content);
+        return nullptr;
+    }
     return state_->submit(revision, content, std::move(changes), nullptr);
 }
 

@@ -13,7 +13,7 @@ bool continues(const Submission& last, Submission& next) {
         return true;
     }
     if (!last.groups || !next.changes.only_light()) return false;
-    std::optional<Mixing> mixing = mixing_of(*last.groups, next.scene);
+    std::optional<Mixing> mixing = mixing_of(*last.groups, next.scene, next.changes);
     if (!mixing) return false;
     next.mixing = *std::move(mixing);
     return true;
@@ -23,6 +23,16 @@ bool continues(const Submission& last, Submission& next) {
 
 Changes changes_since(const Submission* last, const SubmissionContent& content) {
     return last ? diff(last->scene, last->settings, content.scene, content.settings) : Changes{};
+}
+
+Changes LastContent::changes_to(const SubmissionContent& content) const {
+    return is_set_ ? diff(scene_, settings_, content.scene, content.settings) : Changes{};
+}
+
+void LastContent::keep(const SubmissionContent& content) {
+    is_set_ = true;
+    scene_ = content.scene;
+    settings_ = content.settings;
 }
 
 SubmissionPtr next_submission(const Submission* last, uint64_t revision, const SubmissionContent& content, Changes changes,
@@ -38,7 +48,7 @@ SubmissionPtr next_submission(const Submission* last, uint64_t revision, const S
         next->groups = last->groups;
     } else if (next->scene.mix.grouping != LightMix::Grouping::none) {
         next->groups = std::make_shared<const LightGroups>(make_light_groups(next->scene));
-        next->mixing = mixing_of(*next->groups, next->scene).value();
+        next->mixing = mixing_of(*next->groups, next->scene, {}).value();
     }
     return next;
 }

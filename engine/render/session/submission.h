@@ -44,4 +44,20 @@ SubmissionPtr next_submission(const Submission* last, uint64_t revision, const S
 // Differences from `last` to `content`; none if `last` is null.
 Changes changes_since(const Submission* last, const SubmissionContent& content);
 
+// What the next content is compared with: the content before, submitted or not. A window asks in every frame, and its scenes share storage
+// with the one before. A submission would not share it with scenes after an edit that does not reach the image, such as a name: each
+// frame would compare all nodes again.
+class LastContent {
+public:
+    // None for the first content.
+    Changes changes_to(const SubmissionContent& content) const;
+    void keep(const SubmissionContent& content);
+    const Scene& scene() const { return scene_; }
+
+private:
+    bool is_set_ = false;
+    Scene scene_;
+    RenderSettings settings_;
+};
+
 } // namespace blush

@@ -165,7 +165,8 @@ TEST(Layers, ClearCoatsHaveTheirOwnNormals) {
         place(scene, brushed_quad(4), m);
         Light sun;
         sun.kind = Light::Kind::sun;
-        place_light(scene, sun, aimed({0, 0, 0}, {-std::sin(1.0471976f), -std::cos(1.0471976f), 0})); // 60 degrees from the zenith
+        constexpr float turn = std::numbers::pi_v<float> / 3; // from the zenith
+        place_light(scene, sun, aimed({0, 0, 0}, {-std::sin(turn), -std::cos(turn), 0}));
         scene.view = looking_down(1, 5);
         return render(scene, settings_for(8, 8, 16)).whole().mean.y;
     };

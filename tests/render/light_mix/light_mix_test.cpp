@@ -184,11 +184,11 @@ TEST(LightMix, ResetsIfMembersOfAGroupChangeDifferently) {
     for (const Id<Node> node : {studio.bulb, studio.panel}) studio.change(node, [](Light& l) { l.group = "Both"; });
     const LightGroups groups = make_light_groups(studio.scene);
     studio.change(studio.bulb, [](Light& l) { l.intensity *= 2; });
-    EXPECT_FALSE(mixing_of(groups, studio.scene));
+    EXPECT_FALSE(compared_mixing(groups, studio.scene));
     studio.change(studio.panel, [](Light& l) { l.intensity *= 2; });
-    ASSERT_TRUE(mixing_of(groups, studio.scene));
+    ASSERT_TRUE(compared_mixing(groups, studio.scene));
     studio.change(studio.panel, [](Light& l) { l.group = "Other"; });
-    EXPECT_FALSE(mixing_of(groups, studio.scene));
+    EXPECT_FALSE(compared_mixing(groups, studio.scene));
 }
 
 TEST(LightMix, FollowsNames) {
@@ -196,7 +196,7 @@ TEST(LightMix, FollowsNames) {
     const LightGroups groups = make_light_groups(studio.scene);
     studio.change(studio.bulb, [](Light& l) { l.name = "Key"; });
     studio.channel("Key").intensity = 2;
-    const std::optional<Mixing> mixing = mixing_of(groups, studio.scene);
+    const std::optional<Mixing> mixing = compared_mixing(groups, studio.scene);
     ASSERT_TRUE(mixing);
     EXPECT_EQ(mixing->names[1], "Key");
     EXPECT_EQ(mixing->gains[1], (Vec3{2, 2, 2}));

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -85,7 +86,7 @@ TEST(Portals, DirectionsFollowTheirPdf) {
     const Portal<float> portal = portal_at<float>(t, {-1, 0, 0});
     Random random;
     constexpr int64_t samples = 200'000;
-    constexpr double sphere = 4 * 3.14159265358979;
+    constexpr double sphere = 4 * std::numbers::pi;
     std::vector<int64_t> counts(portal_bins);
     std::vector<double> expected(portal_bins);
     Moments measure, height;
@@ -129,7 +130,7 @@ TEST(Portals, NeeHasTheStatedDensity) {
                 lamps.add(p.valid && !sky ? 1 / double(p.probability) : 0);
             }
             // Only a portal reaches every direction: the compensated map does not.
-            if (x < 0) { EXPECT_TRUE(z_test(sphere, 4 * 3.14159265358979, sidak(significance, 8))) << map; }
+            if (x < 0) { EXPECT_TRUE(z_test(sphere, 4 * std::numbers::pi, sidak(significance, 8))) << map; }
             EXPECT_TRUE(z_test(lamps, 1, sidak(significance, 8))) << map << " " << x;
         }
     }

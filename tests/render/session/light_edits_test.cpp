@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numbers>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -101,7 +102,9 @@ constexpr Change changes[]{
     [](Rng& rng, Scene& s, Id<Node> n) {
         change_light(s, n, [&](Light& l) { l.radius = rng() % 2 ? 0.f : random_float(rng, 0.1f, 0.4f); });
     },
-    [](Rng& rng, Scene& s, Id<Node> n) { change_light(s, n, [&](Light& l) { l.spread_radians = random_float(rng, 0.5f, 3.1415927f); }); },
+    [](Rng& rng, Scene& s, Id<Node> n) {
+        change_light(s, n, [&](Light& l) { l.spread_radians = random_float(rng, 0.5f, std::numbers::pi_v<float>); });
+    },
     [](Rng& rng, Scene& s, Id<Node> n) { change_light(s, n, [&](Light& l) { l.lit_objects = random_set(rng, s); }); },
     [](Rng& rng, Scene& s, Id<Node> n) { change_light(s, n, [&](Light& l) { l.shadow_casters = random_set(rng, s); }); },
     [](Rng&, Scene& s, Id<Node> n) { change_light(s, n, [&](Light& l) { l.lit_objects = l.shadow_casters = {}; }); },

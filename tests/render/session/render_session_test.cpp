@@ -374,6 +374,27 @@ TEST(RenderSession, ARenameDoesNotRestart) {
     for (const Event& e : session.events()) EXPECT_FALSE(e.status.revision == 2 && e.status.state != State::complete);
 }
 
+TEST(RenderSession, OnlyChangesAreSubmitted) {
+    Project project = small_project(32, 24, 8);
+    RecordingSession session;
+    const auto submit_changes = [&](uint64_t revision) { return session->submit_changes(revision, project.scene, project.render); };
+    const SubmissionPtr first = submit_changes(1);
+    ASSERT_TRUE(first);
+    auto [id, node] = project.scene.nodes.entries()[0];
+    node.name = "Renamed";
+    project.scene.nodes.set(id, node);
+    for (int frame = 0; frame < 2; ++frame) EXPECT_FALSE(submit_changes(2)) << "a name";
+    project = lit_by(project, 3);
+    const SubmissionPtr second = submit_changes(2);
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->changes.lights.size(), 1u);
+    EXPECT_TRUE(second->changes.structure.empty() && second->changes.transforms.empty());
+    EXPECT_EQ(second->image, first->image + 1);
+    EXPECT_FALSE(submit_changes(3));
+    session.wait_for(2, State::complete);
+    EXPECT_TRUE(same_pixels(*session->latest(), fresh(project)));
+}
+
 TEST(RenderSession, SleepsWhenComplete) {
     const Project project = small_project();
     RecordingSession session;

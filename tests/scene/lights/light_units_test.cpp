@@ -49,7 +49,7 @@ TEST(LightUnits, KnownValues) {
 
 // The flux of a spot is the integral of its falloff, not an upper bound.
 TEST(LightUnits, ASpotsFluxIsThatOfItsFalloff) {
-    for (const auto& [inner, outer] : {std::pair{0.f, 0.7f}, {0.3f, 0.5f}, {0.5f, 0.5f}, {0.f, 1.5707963f}, {0.2f, 0.21f}}) {
+    for (const auto& [inner, outer] : {std::pair{0.f, 0.7f}, {0.3f, 0.5f}, {0.5f, 0.5f}, {0.f, float(pi / 2)}, {0.2f, 0.21f}}) {
         Light spot = light_of(Kind::spot, 1);
         spot.inner_cone_radians = inner;
         spot.outer_cone_radians = outer;

@@ -166,7 +166,7 @@ protected:
     }
 
     void draw_frames(int count) {
-        const std::optional<Mixing> mixing = mixing_of(*frame->light_groups, document.project().scene);
+        const std::optional<Mixing> mixing = compared_mixing(*frame->light_groups, document.project().scene);
         for (int i = 0; i < count; ++i) {
             ui.probe.begin_frame();
             ImGui::NewFrame();

@@ -17,6 +17,7 @@
 #include <imgui_internal.h>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -95,7 +96,7 @@ Project with_odd_values(Project project) {
         light.use_temperature = true;
         light.kelvin = 40000;
         light.intensity = 1e-20f;
-        light.outer_cone_radians = 1.5707963f;
+        light.outer_cone_radians = std::numbers::pi_v<float> / 2;
         scene.lights.set(id, light);
     }
     for (const auto& [id, record] : Table<Material>(scene.materials)) {
@@ -419,7 +420,7 @@ TEST_F(Panels, TheLightMixShowsItsGroups) {
     image->gains = {{1, 1, 1}, {2, 2, 2}};
     image->group_shares.resize(2);
     frame = image;
-    const std::optional<Mixing> mixing = mixing_of(*image->light_groups, sample.project.scene);
+    const std::optional<Mixing> mixing = compared_mixing(*image->light_groups, sample.project.scene);
     ASSERT_TRUE(mixing);
     for (const char* unfolded : {"", "Lamp"})
         for (const Mixing* shown : {&*mixing, static_cast<const Mixing*>(nullptr)}) {

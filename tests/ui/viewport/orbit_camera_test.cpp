@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace blush::TEST_FILE {
 namespace {
 
@@ -21,7 +23,7 @@ View sample_view() {
     View view;
     view.position = {1, 2, 5};
     view.pivot_distance = 4;
-    view.lens.yfov_radians = 1.5707963f;
+    view.lens.yfov_radians = std::numbers::pi_v<float> / 2;
     return view;
 }
 
