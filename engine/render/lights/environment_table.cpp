@@ -28,7 +28,7 @@ constexpr int64_t max_side = (1 << 24) - 1;
 // Share of the mean that is subtracted from the map and left to BSDF sampling. Let s be the probability that light sampling selects the
 // environment. Both techniques together should sample in proportion to the radiance L: s p_light + p_bsdf ~ L, so
 // p_light ~ L - mean / (1 + s). With a sun in the scene, s is small, and the share is 1. Without other lights, s is 1. Then 0.75 has the
-// least error of the shares from 1/4 to 1 under most panoramas (five panoramas, two models each): its error is at most 6 % above that
+// least error of the shares from 1/4 to 1 under most panoramas (five panoramas, two models each): its error is at most 12 % above that
 // of full sampling; with a share of 1 it is up to 28 % above.
 double covered_share(EnvironmentSampling sampling) {
     switch (sampling) {
