@@ -19,10 +19,20 @@ bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_s
 
 // True if the camera sees the same surfaces with the same albedo. The background counts as no surface.
 bool keeps_first_hits(const Scene& before, const Scene& after, const Changes& changes) {
-    return changes.only_light() && std::ranges::all_of(changes.materials, [&](Id<Material> id) {
-               const Material *a = before.materials.find(id), *b = after.materials.find(id);
-               return a && b && same_but_for_emission(*a, *b);
-           });
+    if (!changes.only_light()) return false;
+    const auto all_keep = [](const auto& a, const auto& b, const auto& ids, const auto& keeps) {
+        return std::ranges::all_of(ids, [&](auto id) {
+            const auto *x = a.find(id), *y = b.find(id);
+            return x && y && keeps(*x, *y);
+        });
+    };
+    // The camera sees lights with a radius as spheres.
+    const auto same_shape = [](const Light& a, const Light& b) {
+        return a.kind == b.kind && a.radius == b.radius && a.enabled == b.enabled && a.visible_to_camera == b.visible_to_camera;
+    };
+    const auto same_albedo = [](const Material& a, const Material& b) { return same_but_for_emission(a, b); };
+    return all_keep(before.lights, after.lights, changes.lights, same_shape) &&
+           all_keep(before.materials, after.materials, changes.materials, same_albedo);
 }
 
 } // namespace

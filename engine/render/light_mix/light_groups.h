@@ -49,9 +49,10 @@ using LightGroupsPtr = std::shared_ptr<const LightGroups>;
 // each light, each emissive material; by hand: lights with the same group name, and emissive surfaces by
 // their material's group name. If there are more than `most`, those with a mix channel come first, and the
 // last ones share a plane. Scenes with expanded area lights have the same groups as before expansion.
-// True if they differ at most in emission and name.
-bool same_but_for_emission(Material before, const Material& after);
 LightGroups make_light_groups(const Scene& scene, int most = max_light_groups);
+
+// True if they differ at most in emission, name and solo.
+bool same_but_for_emission(Material before, const Material& after);
 
 // Gain of a group's channel; 1 without a channel.
 Vec3 channel_gain(const LightMix& mix, const std::string& group);

@@ -91,6 +91,7 @@ std::vector<Edit> edits() {
                                              m.emissive = {1, 2, 3};
                                          }); }},
         {"stop rules", true, [](auto& s) { s.project.render.spp = 99; }},
+        {"radius", false, [](auto& s) { change(s.project.scene.lights, s.lamp, [](Light& l) { l.radius = 0.2f; }); }},
         {"albedo", false,
          [](auto& s) { change(s.project.scene.materials, s.grey, [](Material& m) {
                            m.base_color = {0.1f, 0.2f, 0.3f};
