@@ -80,6 +80,12 @@ bool read_health(const Json& json, const LayeredImage& image, Health& h) {
     return read;
 }
 
+bool in_range(int64_t n, int64_t least) { return n >= least && n <= max_samples; }
+
+bool read_passes(const Json& json, std::array<int64_t, 2>& passes) {
+    return read_numbers(json, passes[0], passes[1]) && in_range(passes[0], 0) && in_range(passes[1], 0) && passes[0] + passes[1] > 0;
+}
+
 bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
     return read_list(json, max_light_groups, mix, [](const Json& item, FilmState::MixedGroup& g) {
         const auto is_gain = [](float v) { return std::isfinite(v) && v >= 0; };
@@ -131,6 +137,7 @@ std::string film_json(const FilmState& film) {
               {"health", film_health_json(film.health)}};
     for (const FilmState::MixedGroup& g : film.mix) json["mix"].push_back({g.name, g.gain.x, g.gain.y, g.gain.z});
     if (!film.shares[0].empty()) json["shares"] = {film.shares[0], film.shares[1]};
+    if (film_size(film).light_paths) json["passes"] = {film.passes[0], film.passes[1]};
     if (const auto& p = film.reuse_pilot) json["reuse_pilot"] = {p->mse, p->relmse, p->typical, p->work, p->group_size};
     return json_text(json);
 }
@@ -143,7 +150,6 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     FilmState film;
     film.width = image.width;
     film.height = image.height;
-    const auto in_range = [](int64_t n, int64_t least) { return n >= least && n <= max_samples; };
     if (!read_json(member(*json, "first_sample"), film.first_sample) || !in_range(film.first_sample, 0)) return bad("first_sample");
     if (!read_json(member(*json, "samples"), film.samples) || !in_range(film.samples, 1)) return bad("samples");
     if (!read_json(member(*json, "seconds"), film.seconds) || film.seconds < 0) return bad("seconds");
@@ -169,6 +175,10 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     }
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
     film.planes = lossless_planes(image, "film");
+    // Without any pass the splats would be left out of the image.
+    if (const Json& passes = member(*json, "passes");
+        film_size(film).light_paths != !passes.is_null() || (!passes.is_null() && !read_passes(passes, film.passes)))
+        return bad("passes");
     const size_t pixels = size_t(image.width) * size_t(image.height);
     take_health_map(film, pixels);
     take_pilot(film, pixels);

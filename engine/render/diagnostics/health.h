@@ -2,8 +2,11 @@
 // again.
 #pragma once
 
+#include "core/vec.h"
+
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +27,9 @@ struct Fault {
         bsdf_sample,  // sampled direction, its pdf or weight
         roulette,     // weight of survivors
         sum,          // sum of contributions that are valid one by one
+        light_path,   // a path from a light that reached this pixel; `sample` is its pass over the image
     };
-    static constexpr int kinds = 5, places = 10;
+    static constexpr int kinds = 5, places = 11;
     Kind kind = Kind::nan;
     Place place = Place::sum;
     int vertex = 0;
@@ -44,6 +48,8 @@ struct BadSample {
     Fault fault = {}; // origin of the invalid value
     bool operator==(const BadSample&) const = default;
 };
+// Why a film would drop this radiance, or nothing.
+std::optional<BadSample::Cause> cause_to_drop(const Vec3d& radiance);
 std::string_view to_string(BadSample::Cause cause); // "nan", "inf", "negative"
 // "inf at light sample, vertex 2: pixel 3,4 sample 17".
 std::string describe(const BadSample& sample);

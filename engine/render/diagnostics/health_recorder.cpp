@@ -15,7 +15,10 @@ template <class T, class Less> void merge_first(std::vector<T>& kept, const std:
 
 template <class T> auto place_in_order(const T& s) { return std::tuple(s.sample, s.y, s.x); }
 
-bool comes_before(const BadSample& a, const BadSample& b) { return place_in_order(a) < place_in_order(b); }
+// Several light paths of one pass may reach one pixel: their causes make the order strict.
+bool comes_before(const BadSample& a, const BadSample& b) {
+    return std::tuple(place_in_order(a), a.fault.place, a.cause) < std::tuple(place_in_order(b), b.fault.place, b.cause);
+}
 bool is_worse(const Firefly& a, const Firefly& b) {
     return a.excess != b.excess ? a.excess > b.excess : place_in_order(a) < place_in_order(b);
 }

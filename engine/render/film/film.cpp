@@ -7,23 +7,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 namespace blush {
-namespace {
-
-// Radiance beyond single precision, the format of frames.
-constexpr double max_frame_radiance = double(std::numeric_limits<float>::max());
-
-std::optional<BadSample::Cause> fault_of(double r, double g, double b) {
-    if (std::isnan(r) || std::isnan(g) || std::isnan(b)) return BadSample::Cause::nan;
-    if (std::max({std::abs(r), std::abs(g), std::abs(b)}) > max_frame_radiance) return BadSample::Cause::infinite;
-    if (r < 0 || g < 0 || b < 0) return BadSample::Cause::negative;
-    return std::nullopt;
-}
-
-} // namespace
 
 std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
     const PlaneSet& planes = size.planes;
@@ -48,6 +34,8 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
          GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
         {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher",
          places * sizeof(CaughtSums)},
+        {"light paths", size.light_paths, size.light_paths ? "paths from lights reach any pixel" : "no paths start at lights",
+         SplatPlanes::bytes_per_pixel},
         {"path statistics", planes.roulette, planes.roulette ? "used by a roulette view" : "not used: no roulette view",
          places * sizeof(Vec3d)},
     };
@@ -56,7 +44,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
     return bytes(half_buffers_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) +
-           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes();
+           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes() + splats_.memory_bytes();
 }
 
 void Film::require_memory(const FilmSize& size) {
@@ -83,6 +71,7 @@ void Film::reset(const FilmSize& size, const Clamp& clamp) {
     transparent_ = size.transparent;
     adaptive_ = size.adaptive;
     catches_ = size.catches;
+    light_paths_ = size.light_paths;
     clamping_ = clamp;
     group_count_ = size.groups;
     if (gains_.size() != size_t(size.groups)) set_gains(std::vector<Vec3>(size_t(size.groups), Vec3{1, 1, 1}));
@@ -106,6 +95,7 @@ void Film::clear() {
     material_.assign(planes_.ids ? n : 0, -1);
     bounces_.reset(places, planes_.bounces);
     groups_.reset(n, group_count_);
+    splats_.reset(light_paths_ ? n : 0);
     paths_.assign(planes_.roulette ? places : 0, Vec3d{0, 0, 0});
     clamp_.reset(places, clamping_);
     health_.reset();
@@ -155,6 +145,7 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
     }
 }
 
+// Of the samples alone: how many passes of light paths there are by now depends on how samples are asked for.
 Vec3d Film::sum_of(size_t pixel) const {
     const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
     return {a.r + b.r, a.g + b.g, a.b + b.b};
@@ -188,7 +179,7 @@ void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot,
 void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings,
                        const CatcherColumns* caught) {
     const Vec3d radiance{tile.r[slot], tile.g[slot], tile.b[slot]};
-    if (const auto cause = fault_of(radiance.x, radiance.y, radiance.z)) {
+    if (const auto cause = cause_to_drop(radiance)) {
         const Fault fault = diagnose ? diagnose(at.x, at.y, at.sample) : Fault{};
         findings.dropped.push_back({*cause, at.x, at.y, at.sample, at.seed, fault});
         return;
@@ -228,6 +219,11 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
     }
     if (!findings.dropped.empty()) health_.add_dropped(findings.dropped, size_t(width_), size_t(width_) * size_t(height_));
     if (!findings.fireflies.empty()) health_.add_fireflies(findings.fireflies);
+}
+
+void Film::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed) {
+    const std::vector<BadSample> dropped = splats_.add_pass(pass, tiles, width_, seed, workers);
+    if (!dropped.empty()) health_.add_dropped(dropped, size_t(width_), size_t(width_) * size_t(height_));
 }
 
 void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, const EdgePixels& pixels, double sign) {
@@ -337,7 +333,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
             frame.survival[i] = p.y > 0 ? float(p.z / p.y) : 1.f;
         }
         if (clamp_.on()) {
-            totals.kept = totals.kept + Vec3d{a.r, a.g, a.b} * w.a + Vec3d{b.r, b.g, b.b} * w.b;
+            totals.kept = totals.kept + unmixed_sum(i, 0) * w.a + unmixed_sum(i, 1) * w.b;
             totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.account(place).removed; });
             totals.clamped += adaptive_ ? clamp_.account(2 * i).samples + clamp_.account(2 * i + 1).samples : clamp_.account(i).samples;
         }

@@ -10,10 +10,12 @@
 #include "render/film/film_size.h"
 #include "render/film/group_planes.h"
 #include "render/film/shadow_catcher.h"
+#include "render/film/splat_planes.h"
 #include "render/frame.h"
 #include "render/kernels/kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -42,7 +44,7 @@ public:
     // Throws std::runtime_error with a user message if such a film does not fit into memory.
     static void require_memory(const FilmSize& size);
     // Clears, and allocates missing planes. Throws as above. Adaptive: each half's sample count depends on sample values, so both
-    // halves get equal weight (sample_allocation.h).
+    // halves get equal weight (sample_allocation.h). Light paths do not go together with light groups (film_size.h).
     void reset(const FilmSize& size, const Clamp& clamp = {});
     void clear();
     // Frees all planes not listed; the listed ones must exist.
@@ -76,11 +78,21 @@ public:
     // where it was dropped, nothing.
     void add_to_first_sample(const TileJob& job, const TileScratch& tile, const EdgePixels& pixels, double sign);
 
-    // Sum of the samples of half `half` of a pixel, with the groups' gains applied.
+    // Adds what the light paths of pass `pass` of the image bring to any pixel, list by list in the order of `tiles`, to a film with
+    // light paths: the sums depend neither on threads nor on how the pass is split into lists. Splats that are not finite or
+    // negative are dropped, counted and recorded with the pass as their sample. Pass i belongs to the half of sample i. Not
+    // thread-safe: neither during another pass nor while tiles are added.
+    void add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed = 0);
+    bool has_light_paths() const { return splats_.on(); }
+    // Passes of light paths in both halves.
+    const std::array<int64_t, 2>& passes() const { return splats_.passes(); }
+    void set_passes(const std::array<int64_t, 2>& passes) { splats_.set_passes(passes); }
+
+    // Sum of the samples of half `half` of a pixel, with the groups' gains applied, and of its splats, scaled such that the sum
+    // divided by the number of samples is the mean of the half.
     Vec3d sum(size_t pixel, int half) const {
         if (mixed_) return groups_.mixed(pixel, half, gains_);
-        const HalfBuffer& h = half_buffers_[2 * pixel + size_t(half)];
-        return {h.r, h.g, h.b};
+        return unmixed_sum(pixel, half);
     }
     // Calls change(index) for the material of each pixel's first hit.
     template <class Change> void each_material(const Change& change) {
@@ -140,6 +152,13 @@ private:
         uint32_t seed;
     };
 
+    // As sum(), without the groups' gains.
+    Vec3d unmixed_sum(size_t pixel, int half) const {
+        const HalfBuffer& h = half_buffers_[2 * pixel + size_t(half)];
+        if (!splats_.on()) return {h.r, h.g, h.b};
+        const Vec3d s = splats_.sum_for(pixel, half, h.count);
+        return {h.r + s.x, h.g + s.y, h.b + s.z};
+    }
     Vec3d sum_of(size_t pixel) const;
     float notable_sum(size_t pixel, int samples) const;
     bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || needs_groups() > 0; }
@@ -167,7 +186,7 @@ private:
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;
-    bool transparent_ = false, adaptive_ = false, catches_ = false;
+    bool transparent_ = false, adaptive_ = false, catches_ = false, light_paths_ = false;
     Clamp clamping_;
     int group_count_ = 0;
     std::vector<HalfBuffer> half_buffers_; // two per pixel: even and odd samples, two randomisations of the sampler
@@ -182,6 +201,7 @@ private:
     std::vector<Vec3> gains_;        // of the light groups
     bool mixed_ = false;             // some gain is not 1
     std::vector<CaughtSums> caught_; // only with a shadow catcher
+    SplatPlanes splats_;
     ClampStats clamp_;
     HealthRecorder health_;
 };

@@ -67,6 +67,9 @@ struct FilmPlanes {
             for (int half = 0; half < 2; ++half)
                 visit_vector(
                     visit, group_name(k, half), [&film, k, half ](size_t pixel) -> auto& { return film.groups_.sum(pixel, half, k); });
+        for (int half = 0; half < 2 && film.splats_.on(); ++half)
+            visit_vector(
+                visit, splat_name(half), [&film, half ](size_t pixel) -> auto& { return film.splats_.sum(pixel, half); });
         if (!film.paths_.empty())
             visit_vectors(
                 film, visit, "paths", [&film](size_t place) -> auto& { return film.paths_[place]; });
@@ -80,6 +83,7 @@ struct FilmPlanes {
 
     static std::string half_name(int half) { return half == 0 ? "even" : "odd"; }
     static std::string group_name(size_t group, int half) { return name_of(size_t(half), fmt::format("group.{}", group)); }
+    static std::string splat_name(int half) { return name_of(size_t(half), "splats"); }
 
 private:
     static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half_name(int(half)), what); }

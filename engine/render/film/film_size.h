@@ -29,6 +29,8 @@ struct FilmSize {
     bool adaptive = false;
     int groups = 0;       // light groups, one plane each
     bool catches = false; // records shadows (shadow_catcher.h)
+    // Light paths add to it (splat_planes.h). Not together with light groups, which have no splats of their own.
+    bool light_paths = false;
 };
 
 } // namespace blush

@@ -24,12 +24,19 @@ const LosslessPlane* find_plane(const std::vector<LosslessPlane>& planes, std::s
     return it == planes.end() ? nullptr : &*it;
 }
 
+bool has_light_paths(const FilmState& state) { return find_plane(state.planes, FilmPlanes::splat_name(0) + ".R") != nullptr; }
+
 // Error if the state lacks a plane of the film or has another size.
 std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
     if (state.width != film.width() || state.height != film.height())
         return Error{"",
                      fmt::format("saved samples of {} x {} pixels do not fit an image of {} x {}", state.width, state.height, film.width(),
                                  film.height()),
+                     ""};
+    if (has_light_paths(state) != film.has_light_paths())
+        return Error{"",
+                     fmt::format("saved samples {} light paths do not fit an image {} them", has_light_paths(state) ? "with" : "without",
+                                 film.has_light_paths() ? "with" : "without"),
                      ""};
     const size_t pixels = size_t(state.width) * size_t(state.height);
     std::optional<Error> error;
@@ -77,6 +84,7 @@ FilmState save_film(const Film& film) {
         }
         state.planes.push_back(std::move(plane));
     });
+    state.passes = film.passes();
     state.health = film.health();
     return state;
 }
@@ -84,6 +92,7 @@ FilmState save_film(const Film& film) {
 Result<void> load_film(Film& film, const FilmState& state) {
     if (const auto error = find_mismatch(film, state)) return *error;
     for_each_value(film, state, [](auto& number, auto value, size_t, Combine) { number = value; });
+    film.set_passes(state.passes);
     film.restore_health(state.health);
     return {};
 }
@@ -98,6 +107,7 @@ Result<void> add_film(Film& film, const FilmState& more) {
         else if (!seen[pixel])
             number = value;
     });
+    film.set_passes({film.passes()[0] + more.passes[0], film.passes()[1] + more.passes[1]});
     film.restore_health(HealthRecorder::merged(film.health(), more.health));
     return {};
 }
@@ -126,6 +136,7 @@ FilmSize film_size(const FilmState& state) {
     while (size.groups < max_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
     size.transparent = has("covered");
     size.catches = has("caught.unoccluded");
+    size.light_paths = has_light_paths(state);
     return size;
 }
 
@@ -166,7 +177,8 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.rays = state.rays;
     frame.path_counts = state.path_counts;
     frame.health.truncated = state.truncated;
-    frame.error = estimate_error(film, reuse_group_size(settings, state.reuse_pilot), workers);
+    // Images with light paths have no path reuse.
+    frame.error = estimate_error(film, film_size(state).light_paths ? 1 : reuse_group_size(settings, state.reuse_pilot), workers);
     frame.error_samples = frame.samples;
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();

@@ -25,6 +25,7 @@ struct FilmState {
     // Id<Material>.value, no_material on a miss.
     std::vector<LosslessPlane> planes;
     std::array<std::vector<double>, 2> shares; // SampleAllocation's, once adaptive sampling has decided
+    std::array<int64_t, 2> passes{};           // of light paths, in the even and odd half; 0 without light paths
     std::vector<Vec3d> marked;                 // PilotVariance's, in the second half of the pilot of adaptive sampling
     std::optional<PilotFigures> reuse_pilot;   // ReuseChoice's, if a pilot has decided
     RayCounts rays;
@@ -46,7 +47,8 @@ using FilmStatePtr = std::shared_ptr<const FilmState>;
 
 // Returns the planes and health of a film; the caller fills in the sample counts.
 FilmState save_film(const Film& film);
-// Loads into a film that was reset for the same image. Errors: another size, or a missing plane.
+// Loads into a film that was reset for the same image. Errors: another size, light paths only in one of both (their samples have
+// other MIS weights), or a missing plane.
 Result<void> load_film(Film& film, const FilmState& state);
 // Adds other samples of the same image to the film, in double precision; first hits stay those of the earlier samples. Health
 // counts are added, the lists of worst samples merged. Errors as above.

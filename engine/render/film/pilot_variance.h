@@ -15,7 +15,8 @@ namespace blush {
 // stratification. Its square is divided as in relmse, so that samples are allocated by the reported error. A smaller divisor
 // gives too few samples to dark regions, whose relative error grows more than bright regions gain. One pixel's weight is limited,
 // because a firefly makes its pixel bright. A tile's noise is the root mean square over its pixels, smoothed over neighbouring
-// tiles, because fireflies can occur there too.
+// tiles, because fireflies can occur there too. With light paths, call both when the film holds as many passes as samples: the sum
+// of a half then holds its splats unscaled, and the difference is that of the two parts also for them.
 class PilotVariance {
 public:
     // Call when the film holds half of the pilot: stores its sums.

@@ -2,6 +2,7 @@
 #include "app/commands/opened_snapshot.h"
 #include "app/commands/render/film_json.h"
 #include "io/gltf/read/import.h"
+#include "io/image/lossless_channels.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
 #include "tests/app/program.h"
@@ -124,6 +125,41 @@ TEST(OpenedSnapshot, HostileMetadataDoNoHarm) {
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     std::ofstream(folder / "cut.exr", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
     EXPECT_FALSE(open_snapshot(folder / "cut.exr", {}));
+}
+
+// A film of one pixel with light paths, in a file whose state says `passes`; null: nothing.
+Result<FilmState> read_with_passes(const nlohmann::json& passes, bool light_paths = true) {
+    Film film;
+    film.reset({.width = 1, .height = 1, .light_paths = light_paths});
+    FilmState state = save_film(film);
+    state.samples = 5;
+    state.passes = {3, 2};
+    nlohmann::json json = nlohmann::json::parse(film_json(state));
+    EXPECT_EQ(json.value("passes", nlohmann::json()), light_paths ? nlohmann::json::array({3, 2}) : nlohmann::json());
+    json.erase("passes");
+    if (!passes.is_null()) json["passes"] = passes;
+    LayeredImage image;
+    image.width = image.height = 1;
+    for (const LosslessPlane& plane : planes_in_file(state)) add_lossless_plane(image, "film", plane);
+    SnapshotMetadata metadata;
+    metadata.film = json.dump();
+    return film_in_file(image, metadata);
+}
+
+TEST(FilmInFile, KeepsPassesOfLightPathsAndRefusesImpossibleOnes) {
+    const Result<FilmState> film = read_with_passes({3, 2});
+    ASSERT_TRUE(film) << film.error().text();
+    EXPECT_EQ(film->passes, (std::array<int64_t, 2>{3, 2}));
+    EXPECT_TRUE(film_size(*film).light_paths);
+    EXPECT_TRUE(read_with_passes({1, 0}));
+    EXPECT_TRUE(read_with_passes(nullptr, false));
+    const nlohmann::json wrong[] = {nullptr, {-1, 2}, {0, 0}, {3, int64_t(1) << 41}, {1e300, 2}, {3}, {3, 2, 1}, {"3", 2}, "3"};
+    for (const nlohmann::json& passes : wrong) {
+        const Result<FilmState> refused = read_with_passes(passes);
+        ASSERT_FALSE(refused) << passes;
+        EXPECT_NE(refused.error().text().find("blush:film passes"), std::string::npos) << refused.error().text();
+    }
+    EXPECT_FALSE(read_with_passes({3, 2}, false)) << "without splats";
 }
 
 } // namespace

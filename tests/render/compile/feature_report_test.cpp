@@ -225,8 +225,8 @@ TEST(FeatureReport, BytesOfTheFilmAreThoseAllocated) {
     for (const PlaneSet& planes : {PlaneSet{}, PlaneSet{.albedo = true}, PlaneSet{.depth = true}, PlaneSet{.ids = true},
                                    PlaneSet{.bounces = 5}, PlaneSet{true, true, true, true, default_bounce_planes}})
         for (const auto& [transparent, adaptive] : {std::pair{false, false}, {true, false}, {true, true}}) {
-            for (const bool catches : {false, true}) {
-                const FilmSize size{width, height, planes, transparent, adaptive, 0, catches};
+            for (const auto& [catches, light_paths] : {std::pair{false, false}, {true, false}, {false, true}}) {
+                const FilmSize size{width, height, planes, transparent, adaptive, 0, catches, light_paths};
                 Film film;
                 film.reset(size);
                 size_t bytes = 0;

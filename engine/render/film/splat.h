@@ -1,0 +1,15 @@
+// Radiance that a light path carries to a pixel.
+#pragma once
+
+#include "core/vec.h"
+
+#include <cstdint>
+
+namespace blush {
+
+struct Splat {
+    int32_t pixel = 0; // y * width + x, inside the film
+    Vec3 radiance{0, 0, 0};
+};
+
+} // namespace blush

@@ -1,0 +1,41 @@
+#include "render/film/splat_planes.h"
+
+#include "core/math.h"
+
+namespace blush {
+
+void SplatPlanes::reset(size_t pixels) {
+    sums_.assign(2 * pixels, Vec3d{0, 0, 0});
+    passes_ = {};
+}
+
+std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, int width, uint32_t seed,
+                                             const Workers& workers) {
+    const int half = int(pass & 1);
+    const int64_t pixels = int64_t(sums_.size() / 2), bands = int64_t(workers.threads());
+    std::vector<std::vector<BadSample>> dropped(size_t(bands), std::vector<BadSample>{});
+    // Each band looks at all splats and adds its own: most of the time goes into the memory of the sums, and the order of a pixel's
+    // splats stays that of the lists, however many bands there are.
+    workers.for_each(bands, {}, [&](int64_t band, unsigned) {
+        const int64_t first = pixels * band / bands, last = pixels * (band + 1) / bands;
+        for (const std::span<const Splat> tile : tiles)
+            for (const Splat& splat : tile) {
+                if (splat.pixel < first || splat.pixel >= last) continue;
+                const Vec3d radiance{double(splat.radiance.x), double(splat.radiance.y), double(splat.radiance.z)};
+                if (const auto cause = cause_to_drop(radiance)) {
+                    // The first kinds are the causes.
+                    const Fault fault{Fault::Kind(*cause), Fault::Place::light_path, 0};
+                    dropped[size_t(band)].push_back({*cause, splat.pixel % width, splat.pixel / width, pass, seed, fault});
+                    continue;
+                }
+                Vec3d& to = sum(size_t(splat.pixel), half);
+                to = to + radiance;
+            }
+    });
+    ++passes_[size_t(half)];
+    std::vector<BadSample> all;
+    for (const std::vector<BadSample>& of_band : dropped) all.insert(all.end(), of_band.begin(), of_band.end());
+    return all;
+}
+
+} // namespace blush
