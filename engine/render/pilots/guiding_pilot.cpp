@@ -12,8 +12,8 @@ namespace {
 
 // Any; they only have to differ from each other and from those of images.
 constexpr uint32_t photon_seed = 0x9a1d0000, path_seed = 0x9a1d0001;
-// Photons: one for two pixels of the image, in tiles of tile_capacity; at least and at most so many tiles.
-constexpr int64_t pixels_per_photon_tile = tile_capacity / 2, min_photon_tiles = 8, max_photon_tiles = 64;
+// Photons: four for each pixel of the image, in tiles of tile_capacity; at least and at most so many tiles.
+constexpr int64_t pixels_per_photon_tile = tile_capacity / 4, min_photon_tiles = 8, max_photon_tiles = 64;
 constexpr int photon_tile = 64; // photons along a side
 static_assert(photon_tile * photon_tile == tile_capacity);
 constexpr int path_pixels = 1 << 14; // of the image whose paths are measured,
