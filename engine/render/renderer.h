@@ -16,6 +16,7 @@
 #include <experimental/propagate_const>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct RendererOptions {
     bool low_priority = false;
     PlaneSet planes = {};
     bool filter_textures = true; // false: to measure the effect of filtering
+    // Light paths for each camera path, where they are possible; empty: a pilot decides. To measure their effect.
+    std::optional<float> light_path_share = {};
 };
 
 // World-space position of a light meter, lit from the side of its normal.

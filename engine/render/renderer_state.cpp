@@ -61,9 +61,10 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
 
 void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     clear();
+    splats = false;
     reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
-    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene));
+    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.light_path_share));
     if (outdated != Outdated::film) learned.keep_from(before);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
@@ -93,7 +94,7 @@ void Renderer::select_lights_by_mix() {
     State& s = *state_;
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
-    s.learned = LearnedSampling(s.settings, s.scene);
+    s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.light_path_share);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -103,9 +104,11 @@ void Renderer::set_planes(const PlaneSet& planes) {
     s.options.planes = planes;
     s.info.reset();
     s.feature_report.reset();
-    if (!covered)
+    if (!covered) {
         clear();
-    else if (!s.film_is_stale)
+        s.splats = false;
+        s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.light_path_share); // some planes exclude light paths
+    } else if (!s.film_is_stale)
         s.film.keep_only(planes);
 }
 
@@ -148,7 +151,7 @@ std::vector<Vec3> Renderer::resolve_error() {
 
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
-    const int group_size = reuse_group_size(state_->settings, state_->reuse.pilot());
+    const int group_size = state_->splats ? 1 : reuse_group_size(state_->settings, state_->reuse.pilot());
     return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : measure_sampler_covariance(state_->film);
 }
 
@@ -200,7 +203,8 @@ Frame Renderer::resolve() {
 ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
-    ErrorEstimate error = blush::estimate_error(s.film, blush::reuse_group_size(s.settings, s.reuse.pilot()), s.workers);
+    const int group_size = s.splats ? 1 : blush::reuse_group_size(s.settings, s.reuse.pilot());
+    ErrorEstimate error = blush::estimate_error(s.film, group_size, s.workers);
     // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light().empty()) {
         error.known = error.known && error.high > 0;
@@ -236,6 +240,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
     State& s = *state_;
     s.divider = 1;
     s.clear();
+    s.splats = film_size(state).light_paths;
     s.clear_stale_film();
     const auto refused = [&](Error error) {
         s.clear();

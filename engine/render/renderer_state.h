@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "core/ticks.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/film/edge_samples.h"
@@ -50,6 +51,7 @@ struct Renderer::State {
     LearnedSampling learned;
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
+    bool splats = false;                               // the film holds those of light paths
     bool first_as_others = false;                      // the first sample is rendered as the pilots decide for the others
     int divider = 1;
     FirstHitPlanesPtr first_hits; // of the scene; null: none
@@ -75,10 +77,19 @@ struct Renderer::State {
     KernelContext context_for(const SceneTables& tables, int width, int height) const;
     // A sample of this index follows the decisions of the pilots for the sample of the returned index; 0: none.
     int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
-    int reuse_group_size(int64_t sample) const { return divider == 1 ? reuse.group_size(decided_as(sample)) : reuse.first_group_size(); }
+    int reuse_group_size(int64_t sample) const {
+        if (divider > 1) return reuse.first_group_size();
+        // Light paths do not know the densities of path reuse.
+        return decided_as(sample) > 0 && learned.light_paths().pays() ? 1 : reuse.group_size(decided_as(sample));
+    }
+    // The kernel for samples of these tables.
+    const Kernel& kernel_for(const SceneTables& tables) const {
+        return tables.emission.empty() ? *kernel : kernel_like(*kernel, kernel->features.with(Feature::light_paths));
+    }
 
     FilmSize full_film() const {
-        return {settings.width, settings.height, options.planes, transparent(), settings.adaptive, int(mixing.gains.size()), catches()};
+        return {settings.width,    settings.height,          options.planes, transparent(),
+                settings.adaptive, int(mixing.gains.size()), catches(),      splats && divider == 1};
     }
     // If the scene differs from the film only in the light mix, applies the mix and returns true.
     bool apply_mix(const Scene& whole, const RenderSettings& now) {
@@ -132,6 +143,13 @@ struct Renderer::State {
         sample_allocation.reset(film_width(), film_height());
         film_is_stale = false;
     }
+    // For a film without samples, once the pilots have decided.
+    void begin_splats() {
+        if (splats == learned.light_paths().pays()) return;
+        splats = !splats;
+        film_is_stale = true;
+        clear_stale_film();
+    }
     // Samples first, first + stride, ... of a pixel, with these reuse groups.
     struct Run {
         int64_t first, count;
@@ -150,6 +168,8 @@ struct Renderer::State {
     void refine_first_sample(const EdgePixels& pixels);
     bool renew_first_sample(const Wanted& wanted);
     bool decide(const Wanted& wanted);
+    bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
+    void collect_counts(const TickRate& rate);
 
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {

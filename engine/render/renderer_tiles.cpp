@@ -36,7 +36,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, u
         if (done > 0 && wanted && !wanted()) return false;
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(max_samples, run.count - done));
-        kernel->render(context, job, tile);
+        kernel_for(tables).render(context, job, tile);
         if (pixels) refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
         StageTimer timer(tile.stages);
         const CatcherColumns* shadows = shadows_of(context, job, worker);
@@ -66,6 +66,22 @@ PixelRect Renderer::State::rendered_pixels() const {
             std::min(up(r.y1, groups.block_height), film.height())};
 }
 
+// Adds what the workers have counted.
+void Renderer::State::collect_counts(const TickRate& rate) {
+    for (const auto& used : catching)
+        if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
+    for (const auto& used : scratch) {
+        if (!used) continue;
+        const StageTicks spent = std::exchange(used->stages, {});
+        add_seconds(stages, spent, rate.seconds_per_tick());
+        rays.bounce += std::exchange(used->bounce_rays, 0);
+        rays.shadow += std::exchange(used->shadow_rays, 0);
+        rays.camera += std::exchange(used->camera_rays, 0);
+        truncated += std::exchange(used->truncated_paths, 0);
+        if (used->roulette) move_counts(used->roulette->counts, path_counts);
+    }
+}
+
 bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task) {
     const int across = (film.width() + shape.width - 1) / shape.width, down = (film.height() + shape.height - 1) / shape.height;
     const PixelRect wanted_pixels = rendered_pixels();
@@ -81,18 +97,7 @@ bool Renderer::State::for_each_tile(const TileShape& shape, const Wanted& wanted
         if (job.width <= 0 || job.height <= 0) return;
         if (!task(int(tile), job, worker)) cut_short = true;
     });
-    for (const auto& used : catching)
-        if (used) rays.shadow += std::exchange(used->tile.shadow_rays, 0);
-    for (const auto& used : scratch) {
-        if (!used) continue;
-        const StageTicks spent = std::exchange(used->stages, {});
-        add_seconds(stages, spent, rate.seconds_per_tick());
-        rays.bounce += std::exchange(used->bounce_rays, 0);
-        rays.shadow += std::exchange(used->shadow_rays, 0);
-        rays.camera += std::exchange(used->camera_rays, 0);
-        truncated += std::exchange(used->truncated_paths, 0);
-        if (used->roulette) move_counts(used->roulette->counts, path_counts);
-    }
+    collect_counts(rate);
     return all_begun && !cut_short;
 }
 
@@ -144,23 +149,25 @@ void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
     film_is_stale = true;
+    splats = learned.light_paths().pays();
     clear_stale_film();
     rays = {};
     path_counts.clear();
     truncated = 0;
     first_is_rough = false;
     first_as_others = true;
-    return render_uniformly(0, 1, wanted) || !(film_is_uneven = true);
+    return (render_uniformly(0, 1, wanted) && trace_light_paths(0, 1, wanted)) || !(film_is_uneven = true);
 }
 
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(const Wanted& wanted) {
-    if (!learned.needs_pilot() && !reuse.needs_pilot() && !edges.needs_pilot()) return true;
+    const auto may_reuse = [&] { return reuse.needs_pilot() && !learned.light_paths().pays(); };
+    if (!learned.needs_pilot() && !may_reuse() && !edges.needs_pilot()) return true;
     SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);
     if (!learned.decide(context, *kernel, workers, replays, wanted)) return false;
     tables = learned.tables(scene.tables(), 1);
-    if (reuse.needs_pilot()) {
+    if (may_reuse()) {
         const auto measured = measure_path_reuse(context, *kernel, workers, replays, wanted);
         if (!measured) return false;
         reuse.decide(*measured);
@@ -182,6 +189,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     const int64_t begin = s.settings.adaptive ? s.samples : first;
     if (s.divider == 1 && begin + count > 1) {
         if (!s.decide(wanted)) return false;
+        if (s.samples == 0) s.begin_splats();
         if (s.learned.renews_first()) {
             if (begin == 0) s.first_as_others = true;
             if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
@@ -195,7 +203,9 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (next == 0 && s.first_differs()) step = 1;
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
         const bool planned = s.settings.adaptive && s.sample_allocation.decided();
-        if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted))) return !(s.film_is_uneven = true);
+        if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||
+            !s.trace_light_paths(next, step, wanted))
+            return !(s.film_is_uneven = true);
         if (next == 0) s.first_is_rough = s.divider == 1 && !s.first_as_others;
         s.samples += step;
         done += step;

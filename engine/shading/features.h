@@ -32,6 +32,7 @@ enum class Feature : uint32_t {
     iridescence = 1u << 22,
     diffuse_transmission = 1u << 23,
     dispersion = 1u << 24,
+    light_paths = 1u << 25, // light paths are connected to the camera (light_paths.h)
 };
 
 // A set of features; usable as a template argument.
@@ -46,6 +47,7 @@ struct Features {
 };
 
 inline constexpr Features no_features{};
+// Of scenes. Light paths are chosen by a pilot, and have kernels of their own.
 inline constexpr Features all_features{(1u << 25) - 1};
 // KHR_materials_* layers on top of the metallic-roughness material, which few scenes use.
 inline constexpr Features layer_features = no_features.with(Feature::clearcoat)

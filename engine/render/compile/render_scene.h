@@ -53,6 +53,8 @@ public:
     bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
     // True if some surface may be Lambertian, as path reuse needs it.
     bool may_be_lambertian() const { return used_.lambertian; }
+    // Contains all surfaces; relative to origin().
+    CasterSphere bounding_sphere() const;
     // True if a camera ray may end at something that emits light, or is unlit.
     bool camera_sees_emission() const;
     // See missing_light.h.

@@ -36,6 +36,12 @@ void RenderScene::update_warnings() {
     if (!warnings_ || *warnings_ != warnings) warnings_ = std::make_shared<const std::vector<Diagnostic>>(std::move(warnings));
 }
 
+CasterSphere RenderScene::bounding_sphere() const {
+    const Bounds& box = extent_.bounds;
+    if (box.empty) return {};
+    return {to_float(box.center() - extent_.origin), float(box.radius() * (1 + 1e-5))}; // enlarged against rounding
+}
+
 bool RenderScene::camera_sees_emission() const {
     const auto seen = [](uint32_t mask) { return (mask & camera_ray_mask) != 0; };
     const auto emits = [&](const MeshPart& part) { return std::ranges::find(used_.emissive, part.material) != used_.emissive.end(); };

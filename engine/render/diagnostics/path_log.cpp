@@ -111,7 +111,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height), settings.seed};
     std::vector<std::unique_ptr<TileScratch>> scratches(1);
     const Kernel& kernel = choose_kernel(compiled.features());
-    LearnedSampling learned(settings, compiled);
+    LearnedSampling learned(settings, compiled, FilmSize{settings.width, settings.height});
     const bool decides = sample > 0 || settings.spp != 1; // without a limit, too
     if (decides) learned.decide(context, kernel, workers, scratches, {});
     const SceneTables tables = learned.tables(compiled.tables(), decides && learned.renews_first() ? std::max<int64_t>(sample, 1) : sample);
@@ -135,6 +135,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
                      "is worth",
                      settings.reuse);
+        if (!tables.emission.empty()) log.line("light paths: the film adds their light; it is missing here, and the MIS weights know it");
         if (settings.smooth_edges)
             log.line("smooth edges: in a pixel at the edge of an emitter the film takes more camera rays for emission; alone this path is "
                      "worth");

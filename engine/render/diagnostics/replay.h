@@ -23,7 +23,7 @@ struct ReplayedVertex {
 // within Workers::run or for_each.
 template <class Visit>
 Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int longest, TileScratch& scratch, const Visit& visit) {
-    constexpr Features s = all_features;
+    constexpr Features s = all_features.with(Feature::light_paths);
     context.settings.reuse = {};
     const auto radiance = [&] { return Vec3d{scratch.r[0], scratch.g[0], scratch.b[0]}; };
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];

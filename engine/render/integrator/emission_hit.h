@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/integrator/estimator_settings.h"
+#include "render/integrator/light_path_weights.h"
 #include "render/integrator/light_sampling.h"
 #include "render/integrator/links.h"
 #include "render/integrator/path.h"
@@ -15,6 +16,13 @@ template <class F> F emission_mis_weight(Strategy strategy, const F& bsdf_pdf, c
     if (strategy == Strategy::bsdf) return F(1.f);
     if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
     return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
+}
+// The MIS weight of emission at `position` beside light paths (light_path_weights.h).
+template <Features S, class F> F beside_light_paths(const SceneTables& scene, const F& weight, const Path<F>& path, const Int<F>& light,
+                                                    const Vec<F>& position, const Vec<F>& normal, const Mask<F>& active) {
+    if constexpr (S.has(Feature::light_paths))
+        return weight_beside(weight, light_path_ratio<S, F>(scene, path, light, position, normal, active));
+    return weight;
 }
 // MIS weight of emission hit by the path's ray, considering light linking of the surface that the ray left.
 template <Features S, class F>
@@ -40,6 +48,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             if (aims) {
                 const F pdf = environment_nee_pdf<S, F>(scene, from, path.ray.direction, active);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
+                weight = beside_light_paths<S, F>(scene, weight, path, Int<F>(lights.environment), path.ray.origin, path.normal, active);
             }
             visit(lights.environment, radiance * weight, weight, active);
         }
@@ -54,6 +63,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             if (aims) {
                 const F pdf = cone_pdf(F(sun.cone_height)) * nee_probability<S, F>(scene, from, Int<F>(lights.suns[i]), inside);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
+                weight = beside_light_paths<S, F>(scene, weight, path, Int<F>(lights.suns[i]), path.ray.origin, path.normal, inside);
             }
             weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
             visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);
@@ -112,11 +122,17 @@ template <class F> struct EmissionHit {
     Vec<F> radiance;
     F weight;
 };
+// Where it is: position and geometric normal are only read beside light paths.
+template <class F> struct EmissionPlace {
+    Int<F> part;
+    Vec<F> position, normal;
+};
 template <Features S, class F> EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
-                                                           const Int<F>& part, const Hit<F>& hit, const F& facing, const Vec<F>& emission,
-                                                           const Mask<F>& emitting) {
-    const Int<F> light = light_of_triangle<F>(scene, part, select(emitting, hit.triangle, Int<F>(0)));
-    const F unlinked = surface_emission_mis_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
+                                                           const EmissionPlace<F>& at, const Hit<F>& hit, const F& facing,
+                                                           const Vec<F>& emission, const Mask<F>& emitting) {
+    const Int<F> light = light_of_triangle<F>(scene, at.part, select(emitting, hit.triangle, Int<F>(0)));
+    const F alone = surface_emission_mis_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
+    const F unlinked = beside_light_paths<S, F>(scene, alone, path, light, at.position, at.normal, emitting);
     EmissionHit<F> found{emission, if_linked<S, F>(scene, unlinked, light, path, emitting)};
     if constexpr (S.has(Feature::light_profiles))
         found.radiance = found.radiance * emission_profile<F>(scene, light, -path.ray.direction, emitting);
@@ -130,7 +146,7 @@ template <class F> struct SphereEmissionHit {
     Int<F> object;
 };
 template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
-                                                                        const Int<F>& sphere, const Mask<F>& active) {
+                                                                        const Int<F>& sphere, const F& t, const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
@@ -142,6 +158,8 @@ template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const Sc
         const F pdf = cone_pdf(select(outside, height, F(1.f))) * nee_probability<S, F>(scene, from, light, outside);
         found = emission_mis_weight(strategy, path.pdf, pdf);
     }
+    const Vec<F> position = path.ray.origin + path.ray.direction * t, normal = normalize(position - (path.ray.origin + to_center));
+    found = beside_light_paths<S, F>(scene, found, path, light, position, normal, outside);
     const F weight = if_linked<S, F>(scene, found, light, path, active);
     Vec<F> emission = gather_field3<F>(lights, &LightRecord::emission, light);
     if constexpr (S.has(Feature::light_profiles)) emission = emission * emission_profile<F>(scene, light, -path.ray.direction, outside);

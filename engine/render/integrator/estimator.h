@@ -37,6 +37,7 @@ template <Features S, class F> Path<F> begin_path(const SceneTables& scene, cons
     path.slot = slot;
     path.part = Int<F>(from_camera);
     path.dispersed = Int<F>(0);
+    path.light_ratio = path.emission_ratio = F(0.f);
     path.cone = F(0.f);
     if constexpr (S.has(Feature::textures)) path.cone = cone_at_camera<F>(scene.camera, settings);
     return path;
@@ -71,7 +72,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
 
     Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, lanes.surface);
     out.weights.arriving = beta;
-    hit_emitter<S, F>(scene, settings.strategy, path, hit, surface.part, material, side, beta, lanes.surface, out);
+    hit_emitter<S, F>(scene, settings.strategy, path, hit, surface, material, side, beta, lanes.surface, out);
     const Mask<F> scatters = hit_unlit<S, F>(material, beta, lanes.surface, out);
     const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
     const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
@@ -87,6 +88,9 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const ScatterSetup<F> setup = scatter_setup<S, F>(scene, material, p);
     if (scene.lights.count > 0 || scene.lights.portals.rows)
         sample_direct<S, F>(scene, settings.strategy, p, setup, sampler.pair(dimension + light_dimension), light_timer, out);
+    const bool beside = connects_light_paths<S>(scene);
+    const F light_ratio = beside ? ratio_at_vertex<F>(scene, settings, path, p, side.wo, hit.t, bounce) : F(0.f);
+    if (beside) weigh_direct<S, F>(scene, settings, p, material, side.wo, light_ratio, bounce, out);
 
     const Pair<F> choice = sampler.pair(dimension + choice_dimension);
     const Pair<F> direction = sampler.pair(dimension + bsdf_dimension);
@@ -99,6 +103,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;
     next_path<S, F>(path, p, setup, indirect, next_beta, cone, out.next);
+    if (beside) continue_ratios<S, F>(scene, settings, p, material, side.wo, indirect, light_ratio, bounce, out.next);
     return out;
 }
 

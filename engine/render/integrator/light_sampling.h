@@ -211,6 +211,26 @@ template <Features S, class F> [[gnu::noinline]] void sample_environment_portal(
     p.density = select(environment, pdf, p.density);
 }
 
+// A light as its record has it, for the stages of sampling.
+template <class F> [[gnu::always_inline]] inline LightPoint<F> begin_light_point(const LightRecord* lights, const Int<F>& flags,
+                                                                                 const DiscreteSample<F>& pick, const Mask<F>& active) {
+    LightPoint<F> p;
+    p.light = pick.index;
+    p.probability = pick.probability;
+    p.valid = active && pick.probability > F(0.f);
+    p.kind = gather_field(lights, &LightRecord::kind, pick.index);
+    p.two_sided = as_mask((flags & int32_t(light_two_sided)) != 0);
+    p.position = gather_field3<F>(lights, &LightRecord::position, pick.index);
+    p.emission = gather_field3<F>(lights, &LightRecord::emission, pick.index);
+    p.error = splat<F>(0.f);
+    p.normal = splat<F>(0.f);
+    p.density = F(1.f);
+    p.infinite = Mask<F>(false);
+    p.delta = Mask<F>(false);
+    p.clearcoat = F(0.f);
+    return p;
+}
+
 // Samples a light for a receiver, and a point on it.
 template <Features S, class F>
 LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random, const Receiver<F>& to, const Mask<F>& active) {
@@ -226,22 +246,8 @@ LightPoint<F> sample_light_point(const SceneTables& scene, const Pair<F>& random
     }
     const F u = pick.remainder, v = random.y();
 
-    LightPoint<F> p;
-    p.light = pick.index;
-    p.probability = pick.probability;
-    p.valid = active && pick.probability > F(0.f);
-    p.kind = gather_field(lights, &LightRecord::kind, pick.index);
     const Int<F> flags = gather_field(lights, &LightRecord::flags, pick.index);
-    p.two_sided = as_mask((flags & int32_t(light_two_sided)) != 0);
-    p.position = gather_field3<F>(lights, &LightRecord::position, pick.index);
-    p.emission = gather_field3<F>(lights, &LightRecord::emission, pick.index);
-    p.error = splat<F>(0.f);
-    p.normal = splat<F>(0.f);
-    p.density = F(1.f);
-    p.infinite = Mask<F>(false);
-    p.delta = Mask<F>(false);
-    p.clearcoat = F(0.f);
-
+    LightPoint<F> p = begin_light_point<F>(lights, flags, pick, active);
     sample_triangle_light<S, F>(scene, flags, u, v, p);
     if constexpr (S.has(Feature::point_lights)) p.delta = p.delta || has_kind(p, LightKind::point);
     sample_sphere_light<S, F>(scene, to.position, u, v, p);

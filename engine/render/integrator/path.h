@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/integrator/camera.h"
+#include "render/integrator/light_sampling.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -15,6 +16,9 @@ template <class F> struct Path {
     F cone;             // footprint in metres at the ray's origin (ray_cone.h); only with Feature::textures
     Int<F> part;        // that the ray left, -1: the camera; only if lights may be linked
     Int<F> dispersed;   // 1: carries a single wavelength, 0: all; only with Feature::dispersion
+    // Only with Feature::light_paths: density with which light paths sample the path up to its last vertex, from there to the camera, over
+    // that of the path (light_path_weights.h); and the same where the light found next may be connected by light paths, else 0.
+    F light_ratio, emission_ratio;
 };
 
 // First-hit data of a path, for denoising and picking.
@@ -51,8 +55,9 @@ template <class F> struct Step {
     UInt<F> shadow_mask; // mask of the shadow ray; only if lights are linked
     Ray<F> shadow;
     F shadow_distance;
-    Path<F> next;      // where `continues` or `non_finite`
-    FirstHit<F> first; // at bounce 0 only
+    Path<F> next;          // where `continues` or `non_finite`
+    FirstHit<F> first;     // at bounce 0 only
+    LightPoint<F> sampled; // the light of `direct`; only with Feature::light_paths
     StepWeights<F> weights;
 };
 

@@ -20,6 +20,11 @@ template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
     p.key = load<UInt<F>>(q.key + k);
     p.index = load<UInt<F>>(q.index + k);
     p.slot = load<Int<F>>(q.slot + k);
+    p.light_ratio = p.emission_ratio = F(0.f);
+    if constexpr (S.has(Feature::light_paths)) {
+        p.light_ratio = load<F>(q.light_ratio + k);
+        p.emission_ratio = load<F>(q.emission_ratio + k);
+    }
     return p;
 }
 
@@ -42,6 +47,10 @@ template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const
         compress(q.nz + k, p.normal.z, b);
     }
     if constexpr (S.has(Feature::textures)) compress(q.cone + k, p.cone, b);
+    if constexpr (S.has(Feature::light_paths)) {
+        compress(q.light_ratio + k, p.light_ratio, b);
+        compress(q.emission_ratio + k, p.emission_ratio, b);
+    }
     compress(q.key + k, p.key, b);
     compress(q.index + k, p.index, b);
     compress(q.slot + k, p.slot, b);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/integrator/hit_stages.h"
+#include "render/integrator/light_path_weights.h"
 #include "render/kernels/stage_timer.h"
 #include "shading/path_guiding.h"
 
@@ -94,6 +95,8 @@ template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(
     if constexpr (S.has(Feature::transmission))
         if (scene.panes) out.direct = out.direct * (1.f / max(setup.scatter_share, F(0x1p-24f)));
     out.light = light.light;
+    if constexpr (S.has(Feature::light_paths))
+        if (!scene.emission.empty()) out.sampled = light;
     out.weights.light = weight;
     out.weights.light_pdf = in.pdf;
     out.weights.light_bsdf_pdf = bsdf_pdf;
@@ -187,12 +190,74 @@ template <Features S, class F> [[gnu::always_inline]] inline void next_path(cons
     next.key = path.key;
     next.index = path.index;
     next.slot = path.slot;
+    next.light_ratio = next.emission_ratio = F(0.f);
     if constexpr (S.has(Feature::links)) next.part = p.surface.part;
     if constexpr (S.has(Feature::dispersion)) next.dispersed = select(p.dispersed, Int<F>(1), Int<F>(0));
     if constexpr (S.has(Feature::textures)) {
         const Mask<F> flat = p.shading.ns.x == p.shading.ng.x && p.shading.ns.y == p.shading.ng.y && p.shading.ns.z == p.shading.ng.z;
         next.cone = scattered_cone<F>(cone, s.bsdf.delta, flat);
     }
+}
+
+// True if samples are weighted beside light paths (light_path_weights.h); the next three functions are for them.
+template <Features S> bool connects_light_paths(const SceneTables& scene) {
+    if constexpr (S.has(Feature::light_paths)) return !scene.emission.empty();
+    return false;
+}
+
+// The ratio of densities at a vertex, before its own factor.
+template <class F> F ratio_at_vertex(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path,
+                                     const ShadingPoint<F>& p, const Vec<F>& wo, const F& t, int bounce) {
+    if (bounce > 0) return path.light_ratio;
+    return F(scene.emission.paths) / (camera_density<F>(scene.camera, settings, -wo, t) * clamped_cosine<F>(p.shading.ng, wo));
+}
+
+// The density over projected solid angle with which a light path that comes along -wi goes on to wo; 1 at the first vertex, which it
+// connects to the camera.
+template <Features S, class F> F reverse_density(const SceneTables& scene, const EnergyTable* energy, const ShadingPoint<F>& p,
+                                                 const MaterialPoint<F>& material, const Vec<F>& wo, const Vec<F>& wi, int bounce,
+                                                 const Mask<F>& active) {
+    if (bounce == 0) return F(1.f);
+    return view_point<S, F>(scene, energy, p.surface, material, p.bsdf, wi, wo, false, active).value.pdf /
+           clamped_cosine<F>(p.shading.ng, wo);
+}
+
+// Lowers the weight of NEE by the density of light paths, where they carry its light: on surfaces that are not Lambertian.
+template <Features S, class F>
+[[gnu::noinline, gnu::flatten]] void weigh_direct(const SceneTables& scene, const EstimatorSettings& settings, const ShadingPoint<F>& p,
+                                                  const MaterialPoint<F>& material, const Vec<F>& wo, const F& ratio, int bounce,
+                                                  Step<F>& out) {
+    const Mask<F> shared = out.connects && !p.lambertian && ratio > F(0.f);
+    if (!any(shared)) return;
+    const Vec<F>& wi = out.shadow.direction;
+    const LightPoint<F>& light = out.sampled;
+    const Vec<F> to = light.position - p.surface.position;
+    const Mask<F> point = light.delta && !light.infinite;
+    const auto at =
+        emission_point<S, F>(scene, light.light, select<F>(light.infinite, p.surface.position, light.position), light.normal, wi, shared);
+    const F emitted = emission_density<F>(scene.emission, at, shared);
+    // The pdf of NEE over projected solid angle; a point light has a probability, which counts per area that faces it.
+    const F nee = out.weights.light_pdf * select(point, dot(to, to), F(1.f)) / clamped_cosine<F>(p.shading.ng, wi);
+    const F reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, wi, bounce, shared);
+    const F beside = weight_beside(out.weights.light, F(ratio * reverse * emitted / nee));
+    out.direct = select<F>(shared, out.direct * (beside / out.weights.light), out.direct);
+    out.weights.light = select(shared, beside, out.weights.light);
+}
+
+// The ratios of the path behind this vertex.
+template <Features S, class F>
+[[gnu::noinline, gnu::flatten]] void continue_ratios(const SceneTables& scene, const EstimatorSettings& settings, const ShadingPoint<F>& p,
+                                                     const MaterialPoint<F>& material, const Vec<F>& wo, const IndirectSample<F>& s,
+                                                     const F& ratio, int bounce, Path<F>& next) {
+    const Mask<F> dense = p.scatters && !s.bsdf.delta;
+    F factor = F(bounce == 0 ? 0.f : 1.f); // a light path is not connected to the camera at a delta lobe
+    if (any(dense)) {
+        const F forward = s.bsdf.pdf / clamped_cosine<F>(p.shading.ng, s.wi);
+        const F reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, s.wi, bounce, dense);
+        factor = select(dense && forward > F(0.f), reverse / max(forward, F(1e-30f)), select(dense, F(0.f), factor));
+    }
+    next.light_ratio = min(F(ratio * factor), F(1e30f));
+    next.emission_ratio = select(p.lambertian, F(0.f), next.light_ratio);
 }
 
 } // namespace blush::inline BLUSH_ISA

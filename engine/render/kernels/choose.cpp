@@ -4,6 +4,15 @@
 #include <cstdlib>
 
 namespace blush {
+namespace {
+
+const Kernel& smallest_of(std::span<const Kernel> kernels, Features needed) {
+    for (const Kernel& kernel : kernels)
+        if (kernel.features.contains(needed)) return kernel;
+    return kernels.back();
+}
+
+} // namespace
 
 std::span<const std::string_view> runnable_isas() {
     static const auto isas = [] {
@@ -37,10 +46,9 @@ const Kernel& choose_kernel(Features needed) {
     if (const char* wanted = std::getenv("BLUSH_ISA"))
         for (const std::string_view runnable : runnable_isas())
             if (runnable == wanted) isa = runnable;
-    const std::span<const Kernel> kernels = kernels_of(isa);
-    for (const Kernel& kernel : kernels)
-        if (kernel.features.contains(needed)) return kernel;
-    return kernels.back();
+    return smallest_of(kernels_of(isa), needed);
 }
+
+const Kernel& kernel_like(const Kernel& kernel, Features needed) { return smallest_of(kernels_of(kernel.isa), needed); }
 
 } // namespace blush

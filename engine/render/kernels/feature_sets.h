@@ -31,13 +31,15 @@ inline constexpr Features untextured_features = full_features.without(Feature::t
 // The same without transmission.
 inline constexpr Features opaque_features = untextured_features.without(Feature::transmission).without(Feature::absorption);
 
-inline constexpr std::array<FeatureSet, 6> feature_sets{{
+inline constexpr std::array<FeatureSet, 8> feature_sets{{
     {"lambert", lambert_features},
     {"mesh-lit", mesh_lit_features},
     {"opaque", opaque_features},
     {"untextured", untextured_features},
     {"full", full_features},
     {"layered", all_features},
+    {"light paths", untextured_features.with(Feature::light_paths)},
+    {"light paths, layered", all_features.with(Feature::light_paths)},
 }};
 
 } // namespace blush

@@ -1,13 +1,19 @@
 // Instantiates the kernels for the lane type and instruction set of the including file.
 #pragma once
 
+#include "render/integrator/light_paths.h"
 #include "render/integrator/wavefront.h"
 #include "render/kernels/feature_sets.h"
 
 namespace blush::inline BLUSH_ISA {
 
+template <Features S, class F> constexpr Kernel make_kernel(std::string_view isa, std::string_view name) {
+    Kernel kernel{isa, name, S, &render_tile<S, F>};
+    if constexpr (S.has(Feature::light_paths)) kernel.trace_light_paths = &trace_light_paths<S, F>;
+    return kernel;
+}
 template <class F, size_t... I> constexpr std::array<Kernel, sizeof...(I)> make_kernels(std::string_view isa, std::index_sequence<I...>) {
-    return {Kernel{isa, feature_sets[I].name, feature_sets[I].features, &render_tile<feature_sets[I].features, F>}...};
+    return {make_kernel<feature_sets[I].features, F>(isa, feature_sets[I].name)...};
 }
 template <class F> constexpr auto make_kernels(std::string_view isa) {
     return make_kernels<F>(isa, std::make_index_sequence<feature_sets.size()>());

@@ -9,6 +9,7 @@
 #include "render/integrator/estimator_settings.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
+#include "render/kernels/light_path_columns.h"
 #include "render/kernels/reuse_columns.h"
 #include "render/lights/escape_trial.h"
 #include "render/lights/guiding_trial.h"
@@ -37,8 +38,9 @@ struct TileJob {
 struct PathQueue {
     int size = 0;
     Column<float> ox, oy, oz, dx, dy, dz, beta_r, beta_g, beta_b, pdf;
-    Column<float> nx, ny, nz; // with a light tree
-    Column<float> cone;       // with textures
+    Column<float> nx, ny, nz;                  // with a light tree
+    Column<float> cone;                        // with textures
+    Column<float> light_ratio, emission_ratio; // with light paths
     Column<uint32_t> key, index;
     Column<int32_t> slot;
     Column<int32_t> part;      // that the ray left, -1: the camera; written only if lights may be linked
@@ -103,6 +105,7 @@ struct TileScratch {
     std::unique_ptr<EscapeTrials> escapes;            // null: not recorded
     std::unique_ptr<GuidingTrials> guiding;           // null: not recorded; not with path reuse
     std::unique_ptr<PhotonTrials> photons;            // null: paths begin at the camera; else one for each path of the tile
+    std::unique_ptr<LightPathColumns> light_paths;    // null: no light paths
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };
@@ -115,12 +118,15 @@ struct KernelContext {
 };
 
 using TileFunction = void (*)(const KernelContext&, const TileJob&, TileScratch&);
+// Traces the paths of TileScratch::light_paths, and leaves their splats there.
+using LightPathFunction = void (*)(const KernelContext&, TileScratch&);
 
 struct Kernel {
     std::string_view isa;  // "scalar", "v2", "v3", "v4": x86-64 micro-architecture levels
     std::string_view name; // of the feature set: "lambert", ...
     Features features;
     TileFunction render = nullptr;
+    LightPathFunction trace_light_paths = nullptr; // null without Feature::light_paths
 };
 
 std::span<const Kernel> kernels_scalar();
@@ -132,6 +138,8 @@ std::span<const Kernel> kernels_v4();
 std::span<const std::string_view> runnable_isas();
 // All kernels of one instruction set, smallest feature set first; empty for an unknown name.
 std::span<const Kernel> kernels_of(std::string_view isa);
+// The kernel of another feature set for the same instruction set: the smallest with all `needed` features.
+const Kernel& kernel_like(const Kernel& kernel, Features needed);
 // The smallest kernel with all `needed` features, for $BLUSH_ISA if set and supported, else for the widest instruction set.
 const Kernel& choose_kernel(Features needed);
 

@@ -1,6 +1,8 @@
 #include "render/pilots/learned_sampling.h"
 
+#include "render/compile/render_scene.h"
 #include "render/pilots/guiding_pilot.h"
+#include "render/pilots/light_path_pilot.h"
 #include "render/pilots/portal_pilot.h"
 #include "render/pilots/visibility_pilot.h"
 
@@ -8,6 +10,11 @@
 #include <utility>
 
 namespace blush {
+
+LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
+                                 std::optional<float> light_path_share)
+    : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
+      light_paths_(settings, scene, film, light_path_share), scene_sphere_(scene.bounding_sphere()) {}
 
 bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const Workers& workers,
                              std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
@@ -28,7 +35,11 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         if (keeps) photons_ = photons;
         return learn_path_guiding(with, *photons, others...);
     };
-    return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding);
+    const auto measure_paths = [&](const KernelContext& with, const Kernel& own, auto&&... others) {
+        return measure_light_paths(with, scene_sphere_, kernel_like(own, own.features.with(Feature::light_paths)), others...);
+    };
+    return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&
+           run(light_paths_, measure_paths);
 }
 
 } // namespace blush

@@ -1,0 +1,48 @@
+// How light paths leave the lights: chooses pairs of lights and casters of caustics, and samples points and directions.
+#pragma once
+
+#include "core/sampler.h"
+#include "render/compile/scene_tables.h"
+#include "render/kernels/kernel.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace blush {
+
+// Pairs of lights and casters, for one image. Sampled with the density of emission_density().
+class LightPathEmission {
+public:
+    // No more pairs: the table would be slower than it is useful.
+    static constexpr int64_t max_pairs = 1 << 20;
+
+    LightPathEmission() = default;
+    // For lights with a size that NEE can sample. `scene`: contains all surfaces. Empty if no light reaches a caster, or there are too many pairs.
+    LightPathEmission(const SceneTables& tables, const CasterSphere& scene);
+
+    bool empty() const { return chances_.empty(); }
+    // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
+    EmissionTables tables(float paths) const;
+    // The emission of a path; `tables` as above, in the scene's. Uses the first pairs of the sampler (light_paths.h).
+    EmittedPath emit(const SceneTables& tables, const Sampler<float>& sampler) const;
+    size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }
+
+private:
+    std::vector<float> chances_; // EmissionTables::chances
+    std::vector<uint32_t> thresholds_;
+    CausticCasterTables casters_;
+    CasterSphere scene_{};
+    int32_t lights_ = 0;
+};
+
+// Light paths [first, first + count) of pass `pass` of an image of `paths_per_pass` paths a pass; the passes of a half have one sequence of
+// points. At most tile_capacity paths.
+struct LightPathTile {
+    int64_t pass = 0, paths_per_pass = 0, first = 0;
+    int count = 0;
+};
+// Traces them with a kernel that has Feature::light_paths: the splats are in scratch.light_paths.
+void trace_light_path_tile(const KernelContext& context, const Kernel& kernel, const LightPathEmission& emission, const LightPathTile& tile,
+                           TileScratch& scratch);
+
+} // namespace blush

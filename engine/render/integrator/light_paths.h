@@ -1,0 +1,274 @@
+// Light paths, traced as a wavefront: from the lights through the scene, each vertex connected to the camera (t = 1; Veach 1997, section
+// 10.2, there "light tracing"). Weights: light_path_weights.h; emission: light_emission.h.
+#pragma once
+
+#include "render/integrator/path_queues.h"
+#include "render/integrator/scatter_stages.h"
+#include "render/integrator/splat_pixel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace blush::inline BLUSH_ISA {
+
+// Dimensions of the sampler of a light path, in pairs: those of its emission (light_path_emission.h), then three for each vertex.
+constexpr uint32_t first_light_vertex_dimension = 4;
+enum LightVertexDimension : uint32_t { light_bsdf_dimension, light_choice_dimension, light_lens_dimension, dimensions_per_light_vertex };
+
+// Paths leave their lights side by side, and so they meet the first surfaces.
+constexpr int coherent_light_bounces = 3;
+
+// The camera as a point `from` sees it.
+template <class F> struct CameraConnection {
+    Vec<F> to;     // unit
+    F distance;    // metres; the connection ends at the camera
+    F x, y;        // image position in pixels
+    F density;     // camera_density()
+    Mask<F> valid; // in the image's plane; the position may be outside of the image
+};
+template <Features S, class F> CameraConnection<F> connect_camera(const CameraRecord& camera, const EstimatorSettings& settings,
+                                                                  const Vec<F>& from, const F& lens_u, const F& lens_v) {
+    const Vec<F> forward = splat<F>(camera.forward);
+    CameraConnection<F> c;
+    const Vec<F> from_eye = from - splat<F>(camera.position);
+    Vec<F> lateral; // in the plane that is the image's at distance 1 from the eye
+    if (camera.orthographic) {
+        c.to = -forward;
+        c.distance = dot(from_eye, forward);
+        lateral = from_eye - forward * c.distance;
+        c.valid = c.distance > F(0.f);
+    } else {
+        Vec<F> shift = splat<F>(0.f);
+        if constexpr (S.has(Feature::thin_lens))
+            if (camera.aperture_radius > 0) {
+                const Vec2T<F> lens = sample_disk(lens_u, lens_v) * F(camera.aperture_radius);
+                shift = splat<F>(normalize(camera.right)) * lens.x + splat<F>(normalize(camera.up)) * lens.y;
+            }
+        const Vec<F> ray = from_eye - shift;
+        c.distance = length(ray);
+        c.to = ray * (-1.f / max(c.distance, F(1e-30f)));
+        const F depth = dot(ray, forward);
+        c.valid = depth > F(0.f);
+        // Where the ray from the lens crosses the plane in focus, as seen from the eye.
+        const F focus = F(camera.aperture_radius > 0 ? camera.focus_distance : 1.f);
+        lateral = (shift + ray * (focus / select(c.valid, depth, F(1.f)))) * (1.f / focus) - forward;
+    }
+    const Vec3 right = camera.right * (1 / dot(camera.right, camera.right)), up = camera.up * (1 / dot(camera.up, camera.up));
+    c.x = (dot(lateral, splat<F>(right)) + 1.f) * (0.5f * settings.width);
+    c.y = (1.f - dot(lateral, splat<F>(up))) * (0.5f * settings.height);
+    c.density = camera_density<F>(camera, settings, -c.to, c.distance);
+    // Within the reach of the pixel filter; not NaN.
+    c.valid = c.valid && c.x > F(-2.f) && c.x < F(settings.width + 2) && c.y > F(-2.f) && c.y < F(settings.height + 2);
+    return c;
+}
+
+// A vertex of a light path.
+template <class F> struct LightVertex {
+    const Surface<F>& surface;
+    const MaterialPoint<F>& material;
+    const ShadingFrame<F>& shading; // as seen from the vertex before
+    const Bsdf<F>& bsdf;            // likewise
+    Vec<F> wo;                      // unit, world: towards the vertex before
+    F cosine;                       // between wo and the geometric normal, > 0
+    Vec<F> beta;
+    F hit_ratio, nee_ratio; // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
+    Mask<F> scatters, solid;
+};
+
+// Density with which NEE at the first vertex samples the point of the light, over projected solid angle.
+template <Features S, class F>
+F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted, int k, const LightVertex<F>& v, const Mask<F>& lanes) {
+    alignas(64) float x[width<F>]{}, y[width<F>]{}, z[width<F>]{}, nx[width<F>]{}, ny[width<F>]{}, nz[width<F>]{};
+    alignas(64) int32_t light[width<F>]{};
+    for_each_lane(bits(lanes), [&](int i) {
+        const EmittedPath& e = emitted[size_t(k + i)];
+        x[i] = e.light_position.x, y[i] = e.light_position.y, z[i] = e.light_position.z;
+        nx[i] = e.light_normal.x, ny[i] = e.light_normal.y, nz[i] = e.light_normal.z;
+        light[i] = e.light;
+    });
+    const Vec<F> position{load<F>(x), load<F>(y), load<F>(z)}, normal{load<F>(nx), load<F>(ny), load<F>(nz)};
+    const auto at = emission_point<S, F>(scene, load<Int<F>>(light), position, normal, v.wo, lanes);
+    Receiver<F> to{v.surface.position, v.shading.ns};
+    to.normal = select<F>(v.material.bsdf.transmission > F(0.f), splat<F>(0.f), to.normal);
+    to.normal = select<F>(v.material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), to.normal);
+    const Vec<F> to_light = position - v.surface.position;
+    const F d2 = dot(to_light, to_light);
+    const Int<F> kind = gather_field(scene.lights.lights, &LightRecord::kind, at.light);
+    const Mask<F> sphere = as_mask(kind == int32_t(LightKind::sphere)), sky = lanes && as_mask(kind == int32_t(LightKind::environment));
+    const F radius = gather_field(scene.lights.lights, &LightRecord::radius, at.light);
+    const Vec<F> to_center = gather_field3<F>(scene.lights.lights, &LightRecord::position, at.light) - v.surface.position;
+    const F height = sphere_cone_height(dot(to_center, to_center), radius);
+    F pdf = select(at.infinite, at.density, at.density * d2 / max(emission_cosine(at), F(1e-6f)));
+    pdf = select(sphere, select(height > F(0.f), cone_pdf(select(height > F(0.f), height, F(1.f))), F(0.f)), pdf);
+    pdf = pdf * nee_probability<S, F>(scene, to, at.light, lanes && !sky);
+    if (any(sky)) pdf = select(sky, environment_nee_pdf<S, F>(scene, to, v.wo, sky), pdf);
+    return pdf / v.cosine;
+}
+
+// Queues the connection of a vertex to the camera: radiance, as a share of one light path's flux, with its MIS weight.
+template <Features S, class F> [[gnu::noinline, gnu::flatten]] void
+connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>& path, const LightVertex<F>& v, int bounce) {
+    const SceneTables& scene = *context.scene;
+    const Mask<F> connectable = v.scatters && !is_delta_only<F>(v.bsdf);
+    if (!any(connectable)) return;
+    const uint32_t dimension = first_light_vertex_dimension + dimensions_per_light_vertex * uint32_t(bounce) + light_lens_dimension;
+    Pair<F> lens{UInt<F>(0u), UInt<F>(0u)};
+    if (scene.camera.aperture_radius > 0) lens = Sampler<F>{path.key, path.index}.pair(dimension);
+    // The side of the camera decides on which side the ray begins.
+    const CameraConnection<F> rough = connect_camera<S, F>(scene.camera, context.settings, v.surface.position, lens.x(), lens.y());
+    const Vec<F> from = offset_origin(v.surface.position, v.surface.error, v.shading.ng, dot(rough.to, v.shading.ng) > F(0.f));
+    const CameraConnection<F> c = connect_camera<S, F>(scene.camera, context.settings, from, lens.x(), lens.y());
+    const Mask<F> seen_by_camera = connectable && c.valid;
+    if (!any(seen_by_camera)) return;
+    const ViewedPoint<F> view =
+        view_point<S, F>(scene, context.settings.energy, v.surface, v.material, v.bsdf, c.to, v.wo, true, seen_by_camera);
+    const F per_path = c.density * clamped_cosine<F>(v.shading.ng, c.to) * (1.f / scene.emission.paths);
+    const Vec<F> value = v.beta * view.value.f_cos * (per_path / v.cosine);
+    const F seen = view.pdf / v.cosine;
+    const F hit = v.hit_ratio * seen * per_path, nee = (bounce == 0 ? v.nee_ratio : v.nee_ratio * seen) * per_path;
+    const F weight = 1.f / (1.f + hit * hit + nee * nee);
+    const Mask<F> connects = seen_by_camera && has_light(value);
+    if (!any(connects)) return;
+    Step<F> step;
+    step.shadow = {from, c.to};
+    step.shadow_distance = c.distance * (1.f - 4e-7f);
+    step.direct = value * weight;
+    LightPathColumns& columns = *scratch.light_paths;
+    if (columns.measures) {
+        compress(columns.amount + scratch.shadows.size, luminance(value), bits(connects));
+        compress(columns.others + scratch.shadows.size, sqrt(hit * hit + nee * nee), bits(connects));
+    }
+    compress(columns.x + scratch.shadows.size, c.x, bits(connects));
+    compress(columns.y + scratch.shadows.size, c.y, bits(connects));
+    append<F>(scratch.shadows, step, path.slot, connects);
+}
+
+// Appends the path behind the vertex.
+template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_light_path(const KernelContext& context, const Path<F>& path,
+                                                                                        const LightVertex<F>& v, int bounce,
+                                                                                        TileScratch& scratch, PathQueue& next, int queue) {
+    const EstimatorSettings& settings = context.settings;
+    const Sampler<F> sampler{path.key, path.index};
+    const uint32_t dimension = first_light_vertex_dimension + dimensions_per_light_vertex * uint32_t(bounce);
+    const Pair<F> direction = sampler.pair(dimension + light_bsdf_dimension), choice = sampler.pair(dimension + light_choice_dimension);
+    const BsdfSample<F> s = sample<S, F>(v.bsdf, v.shading.wo, direction.x(), direction.y(), choice.x());
+    const Vec<F> wi = normalize(v.shading.frame.to_world(s.wi));
+    const Mask<F> outward = dot(wi, v.shading.ng) > F(0.f);
+    const F cosine = clamped_cosine<F>(v.shading.ng, wi);
+
+    // Light flows against the camera's paths: the BSDF is that seen from wi, and the cosines are the geometric ones (Veach 1997, 5.3).
+    Vec<F> beta = splat<F>(0.f);
+    F hit_ratio = v.hit_ratio, nee_ratio = bounce == 0 ? F(0.f) : v.nee_ratio;
+    const Mask<F> dense = v.scatters && !s.delta;
+    if (any(dense)) {
+        const ViewedPoint<F> view = view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.wo, true, dense);
+        const F seen = view.pdf / v.cosine, forward = s.pdf / cosine;
+        const F factor = seen / max(forward, F(1e-30f));
+        beta = view.value.f_cos * (1.f / (v.cosine * max(forward, F(1e-30f))));
+        hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
+        nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
+    }
+    // Refraction does not change flux, only radiance.
+    const Mask<F> crosses = v.solid && (s.wi.z > F(0.f)) != (v.shading.wo.z > F(0.f));
+    const F tilt = cosine * abs(v.shading.wo.z) / (v.cosine * max(abs(s.wi.z), F(1e-6f)));
+    beta = select<F>(dense, beta, s.weight * select(crosses, tilt / v.bsdf.radiance_scale, tilt)) * v.beta;
+
+    const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
+    Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
+    if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
+        const Mask<F> applied = dense || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
+        const F q = select(applied, survival_probability(settings.roulette, beta), F(1.f));
+        continues = continues && !(choice.y() >= q);
+        beta = beta / max(q, F(1e-30f));
+    }
+    Path<F> p = path;
+    p.ray = {offset_origin(v.surface.position, v.surface.error, v.shading.ng, outward), wi};
+    p.beta = beta;
+    const unsigned lanes = bits(continues);
+    compress(scratch.light_paths->hit_ratio[queue] + next.size, min(hit_ratio, F(1e30f)), lanes);
+    compress(scratch.light_paths->nee_ratio[queue] + next.size, min(nee_ratio, F(1e30f)), lanes);
+    append<S, F>(next, p, continues);
+}
+
+// Shades the hits of `now`, which is the queue of number 1 - `queue`; survivors go to `next`.
+template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const KernelContext& context, TileScratch& scratch,
+                                                                       const PathQueue& now, PathQueue& next, int queue, int bounce) {
+    const SceneTables& scene = *context.scene;
+    const EstimatorSettings& settings = context.settings;
+    LightPathColumns& columns = *scratch.light_paths;
+    next.size = 0;
+    scratch.shadows.size = 0;
+    for (int k = 0; k < now.size; k += width<F>) {
+        const Path<F> path = load_path<S, F>(now, k);
+        const Mask<F> active = as_mask(iota<F>() + k < now.size);
+        const Hit<F> hit = load_hit<F>(scratch.hits, k);
+        const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
+        if (!any(met)) continue;
+        // Textures are filtered as the camera sees them.
+        const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
+        const float cone = camera_cone(scene.camera, settings);
+        const F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
+        const Surface<F> surface = surface_at<S, F>(scene, hit, met, footprint);
+        MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, met);
+        const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
+        const Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
+        const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
+        const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
+        LightVertex<F> v{surface,   material,
+                         shading,   bsdf,
+                         side.wo,   clamped_cosine<F>(shading.ng, side.wo),
+                         beta,      F(0.f),
+                         F(0.f),    met && !material.unlit,
+                         side.solid};
+        if (bounce == 0) {
+            v.scatters = v.scatters && !is_lambertian<S, F>(bsdf);
+            if (!any(v.scatters)) continue;
+            alignas(64) float densities[width<F>]{}, hits[width<F>]{};
+            for_each_lane(bits(v.scatters), [&](int i) {
+                const EmittedPath& e = columns.emitted[size_t(k + i)];
+                densities[i] = 1 / e.density;
+                hits[i] = e.delta ? 0 : densities[i];
+            });
+            v.hit_ratio = load<F>(hits);
+            if (const Mask<F> lit = v.scatters && !is_delta_only<F>(bsdf); any(lit))
+                v.nee_ratio = select(lit, load<F>(densities) * nee_density<S, F>(scene, columns.emitted, k, v, lit), F(0.f));
+        } else {
+            v.hit_ratio = load<F>(columns.hit_ratio[1 - queue] + k);
+            v.nee_ratio = load<F>(columns.nee_ratio[1 - queue] + k);
+        }
+        connect_vertex<S, F>(context, scratch, path, v, bounce);
+        if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, scratch, next, queue);
+    }
+}
+
+// Light paths of the tile: see LightPathColumns.
+template <Features S, class F> void trace_light_paths(const KernelContext& context, TileScratch& scratch) {
+    LightPathColumns& columns = *scratch.light_paths;
+    PathQueue* now = &scratch.paths[0];
+    PathQueue* next = &scratch.paths[1];
+    begin_light_paths(columns, *now);
+    int queue = 0; // number of `now`
+    for (int bounce = 0; now->size > 0 && bounce < context.settings.max_bounces; ++bounce) {
+        if (bounce > max_path_length) {
+            scratch.truncated_paths += now->size;
+            break;
+        }
+        scratch.bounce_rays += now->size;
+        const RayArrays path_rays{now->ox, now->oy, now->oz, now->dx, now->dy, now->dz, nullptr, nullptr, other_ray_mask};
+        HitColumns& h = scratch.hits;
+        trace_closest<F>(*context.accel, path_rays, now->size, bounce < coherent_light_bounces,
+                         HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        queue = 1 - queue;
+        shade_light_paths<S, F>(context, scratch, *now, *next, queue, bounce);
+        scratch.shadow_rays += scratch.shadows.size;
+        if (scratch.shadows.size > 0) {
+            RayArrays rays = shadow_rays_of(context, scratch.shadows);
+            rays.mask = camera_ray_mask;
+            trace_any<F>(*context.accel, rays, scratch.shadows.size, false, scratch.blocked);
+            add_splats(context.settings, bounce, scratch);
+        }
+        std::swap(now, next);
+    }
+}
+
+} // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,62 @@
+#include "render/pilots/light_path_choice.h"
+
+#include "render/compile/render_scene.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace blush {
+namespace {
+
+// Why light paths cannot be used or gain nothing; null if they may.
+const char* why_no_light_paths(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
+    const SceneTables& tables = scene.tables();
+    if (tables.guides.casters.count == 0) return "no mirror or glass has light to focus";
+    if (settings.strategy != Strategy::mis) return "light and BSDF sampling are not combined";
+    if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";
+    if (tables.blends) return "a surface is blended";
+    if (tables.panes) return "a pane transmits light straight through";
+    if (tables.links.lit_sets) return "a light is linked to objects";
+    if (scene.features().has(Feature::dispersion)) return "a solid has dispersion";
+    if (film.groups > 0) return "the light mix is on";
+    if (film.planes.bounces > 0 || film.planes.roulette) return "a layer or a view shows paths by their length";
+    if (film.catches) return "there is a shadow catcher";
+    if (settings.clamp.limit > 0) return "samples are clamped";
+    return nullptr;
+}
+
+} // namespace
+
+LightPathChoice::LightPathChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<float> share)
+    : useless_(why_no_light_paths(settings, scene, film)), share_(share), pixels_(double(settings.width) * double(settings.height)) {}
+
+void LightPathChoice::decide(LightPathPilot pilot) {
+    if (useless_) return;
+    pilot_ = std::move(pilot);
+    if (share_ && pilot_->figures) pilot_->share = *share_;
+}
+
+SceneTables LightPathChoice::tables(SceneTables scene, int64_t sample) const {
+    if (sample > 0 && pays()) scene.emission = pilot_->emission.tables(float(paths()));
+    return scene;
+}
+
+FeatureUse LightPathChoice::report() const {
+    FeatureUse use{.part = "kernel", .name = "light paths", .used = pays(), .why = {}};
+    if (useless_)
+        use.why = useless_;
+    else if (!pilot_)
+        use.why = "a pilot decides after the first sample";
+    else if (!pilot_->figures)
+        use.why = "pilot: no light path reaches the image";
+    else if (pilot_->share > 0)
+        use.why = fmt::format("pilot: variance x work is {:.2f} of that without, with {} for each camera path", pilot_->figures->cost(),
+                              pilot_->share);
+    else
+        use.why = fmt::format("pilot: variance x work would be {:.2f} of that without", pilot_->figures->cost());
+    if (use.used) use.bytes = pilot_->emission.memory_bytes();
+    if (pilot_) use.pilot = pilot_->figures;
+    return use;
+}
+
+} // namespace blush

@@ -1,0 +1,32 @@
+// Pilot of light paths: finds how many of them an image is worth.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/compile/feature_report.h"
+#include "render/integrator/light_path_emission.h"
+#include "render/kernels/kernel.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace blush {
+
+struct LightPathPilot {
+    LightPathEmission emission;
+    float share = 0;                     // light paths for each camera path: 0, 1/8, ... 2
+    std::optional<PilotFigures> figures; // at that share; at 1/8 if it is 0. Empty: no light path reaches the image
+};
+
+// Traces light paths and camera paths at a low resolution and chooses the share with the smallest variance x work. The second moment of
+// light that light paths can carry is measured by these paths for all shares at once: where the camera's strategies have the density `r`
+// times that of light paths, the moment of their combination is that of f^2 / (r + share) (balance heuristic, Veach 1997, 9.2). So it is
+// also known where no path of the camera has found the light. The rest is measured by the camera's paths.
+//
+// `scene_sphere` contains all surfaces; other arguments and the result as learn_path_guiding(), with what was learned before.
+std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
+                                                  const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                                  const std::function<bool()>& wanted);
+
+} // namespace blush

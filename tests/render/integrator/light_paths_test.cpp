@@ -1,0 +1,244 @@
+// Light paths: the flux that they leave the lights with, their agreement in the mean with the other strategies, and that their sums do not
+// depend on how they are rendered.
+#include "render/integrator/light_path_emission.h"
+
+#include "render/compile/expand_area_lights.h"
+#include "render/compile/render_scene.h"
+#include "render/film/film_state.h"
+#include "render/integrator/kernel_settings.h"
+#include "tests/render/pilots/pilot_checks.h"
+#include "tests/render/rendered_image.h"
+#include "tests/render/scenes.h"
+#include "tests/support/images.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace blush::test::TEST_FILE {
+namespace {
+
+using namespace statistics;
+
+// Casters of caustics over a floor: a metal and a glass ball, both rough, so that each strategy finds their light.
+Scene rough_balls() {
+    Scene scene;
+    place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
+    place(scene, sphere(false), metal(0.2f), at({-0.7f, 0.5f, 0}, 0.5f));
+    place(scene, sphere(false), glass(0.2f, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.5f));
+    scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
+    return scene;
+}
+Light light_of(Light::Kind kind, float intensity, float radius = 0) {
+    Light light;
+    light.kind = kind;
+    light.intensity = intensity;
+    light.radius = radius;
+    return light;
+}
+// One for each kind of emission, and one with a point without size, which emits no light paths.
+std::vector<std::pair<const char*, Scene>> lit_scenes() {
+    std::vector<std::pair<const char*, Scene>> scenes;
+    const auto add = [&](const char* name, const auto& light) { light(scenes.emplace_back(name, rough_balls()).second); };
+    add("one-sided triangles", [](Scene& s) { place(s, ceiling_quad(0.5f, 2.5f), emitter(10)); });
+    add("two-sided triangles", [](Scene& s) {
+        Material lamp = emitter(10);
+        lamp.double_sided = true;
+        place(s, ceiling_quad(0.5f, 2.5f), lamp);
+        place(s, ceiling_quad(2, 4), lambert(0.8f));
+    });
+    add("sphere", [](Scene& s) { place_light(s, light_of(Light::Kind::point, 20, 0.3f), at({0, 2, 0.5f})); });
+    add("point beside a sphere", [](Scene& s) {
+        place_light(s, light_of(Light::Kind::point, 10), at({-0.5f, 2, 0.5f}));
+        place_light(s, light_of(Light::Kind::point, 10, 0.2f), at({0.8f, 2, 0.5f}));
+    });
+    add("sun", [](Scene& s) {
+        Light sun = light_of(Light::Kind::sun, 3);
+        sun.angle_radians = 0.3f;
+        place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    });
+    add("rough plastic", [](Scene& s) {
+        place(s, floor_quad(1), plastic(0.4f), at({0, 0.01f, 0.8f}));
+        place(s, ceiling_quad(0.5f, 2.5f), emitter(10));
+    });
+    return scenes;
+}
+
+struct Compiled {
+    RenderScene scene;
+    explicit Compiled(const Scene& s, const RenderSettings& settings = settings_for(8, 8, 1)) {
+        scene.update(expand_area_lights(s), settings, full_plan(), Workers(1));
+    }
+    LightPathEmission emission() const { return {scene.tables(), scene.bounding_sphere()}; }
+};
+
+// Mean flux of emitted paths, luminance: an estimate of that of all lights.
+Moments emitted_flux(const Scene& scene) {
+    const Compiled compiled(scene);
+    const LightPathEmission emission = compiled.emission();
+    EXPECT_FALSE(emission.empty());
+    // Randomised, as points of one sequence are not independent.
+    Moments flux;
+    for (uint32_t k = 0; k < 64; ++k) {
+        double sum = 0;
+        constexpr uint32_t paths = 1024;
+        for (uint32_t i = 0; i < paths; ++i)
+            sum += double(luminance(emission.emit(compiled.scene.tables(), {pcg_hash(1000 + k), i}).flux)) / paths;
+        flux.add(sum);
+    }
+    return flux;
+}
+// A caster; the floor keeps the scene's extent.
+Scene one_ball() {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.5f));
+    place(scene, sphere(false), glass(0, 1.5f), at({0.5f, 0.5f, 0}, 0.4f));
+    return scene;
+}
+
+TEST(LightPathEmission, CarriesTheFluxOfTheLights) {
+    constexpr double pi_ = double(pi);
+    Scene lamp = one_ball(); // 1 m2, one-sided
+    place(lamp, ceiling_quad(0.5f, 2), emitter(7));
+    EXPECT_TRUE(z_test(emitted_flux(lamp), pi_ * 7));
+    Scene both = one_ball();
+    Material sided = emitter(7);
+    sided.double_sided = true;
+    place(both, ceiling_quad(0.5f, 2), sided);
+    EXPECT_TRUE(z_test(emitted_flux(both), 2 * pi_ * 7));
+    Scene bulbs = one_ball(); // candela: flux 4 pi I, whatever the radius; the second is in the caster's sphere
+    place_light(bulbs, light_of(Light::Kind::point, 5, 0.1f), at({0, 2, 0}));
+    place_light(bulbs, light_of(Light::Kind::point, 3, 0.05f), at({0.5f, 0.5f, 0}));
+    place_light(bulbs, light_of(Light::Kind::point, 2), at({-1, 1, 0})); // without size: none
+    EXPECT_TRUE(z_test(emitted_flux(bulbs), 4 * pi_ * 8));
+    Scene sunny = one_ball();
+    Light sun = light_of(Light::Kind::sun, 3);
+    sun.angle_radians = 0.1f;
+    place_light(sunny, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    const double radius = double(Compiled(sunny).scene.bounding_sphere().radius);
+    // Lux are those of a surface that faces the middle of the sun; each beam has its own cross-section.
+    const double cosines = (1 + std::cos(0.05)) / 2;
+    EXPECT_TRUE(z_test(emitted_flux(sunny), 3 / cosines * pi_ * radius * radius));
+}
+
+// Blocks of the image: means over independent images, as one light path adds to many pixels.
+std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, float share, int images, uint32_t first_seed) {
+    std::vector<std::array<Moments, 3>> moments;
+    for (int k = 0; k < images; ++k) {
+        settings.seed = first_seed + uint32_t(k);
+        Renderer renderer({.threads = 2, .light_path_share = share});
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        const RenderedImage image = image_of(renderer);
+        EXPECT_EQ(feature_line(renderer, "light paths").used, share > 0);
+        const auto blocks = image.blocks(settings.width / 3, settings.height / 3);
+        moments.resize(blocks.size());
+        for (size_t i = 0; i < blocks.size(); ++i) {
+            moments[i][0].add(blocks[i].mean.x);
+            moments[i][1].add(blocks[i].mean.y);
+            moments[i][2].add(blocks[i].mean.z);
+        }
+    }
+    std::vector<Measured> measured;
+    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
+    return measured;
+}
+
+TEST(LightPaths, AgreeWithTheOtherStrategies) {
+    for (const auto& [name, scene] : lit_scenes()) {
+        SCOPED_TRACE(name);
+        RenderSettings settings = settings_for(36, 36, 16);
+        const auto without = blocks_of(scene, settings, 0, 20, 1);
+        settings.spp = 4;
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, 2, 20, 1000), without));
+        settings.spp = 16;
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, 0.125f, 20, 2000), without));
+    }
+}
+
+TEST(LightPaths, AgreeForEveryCamera) {
+    Scene scene = lit_scenes()[0].second;
+    scene.view.lens.aperture_radius = 0.2f;
+    scene.view.lens.focus_distance = 3;
+    RenderSettings settings = settings_for(36, 36, 16);
+    EXPECT_TRUE(same_means(blocks_of(scene, settings, 1, 20, 1000), blocks_of(scene, settings, 0, 20, 1))) << "thin lens";
+    scene.view.lens.aperture_radius = 0;
+    settings.filter = PixelFilter::blackman_harris;
+    EXPECT_TRUE(same_means(blocks_of(scene, settings, 1, 20, 1000), blocks_of(scene, settings, 0, 20, 1))) << "filter";
+    scene.view.lens.orthographic = true;
+    scene.view.lens.ymag = 1.2f;
+    EXPECT_TRUE(same_means(blocks_of(scene, settings, 1, 20, 1000), blocks_of(scene, settings, 0, 20, 1))) << "orthographic";
+}
+
+// Splats of one tile of light paths.
+std::vector<Splat> splats_of(const Scene& scene, const Kernel& kernel) {
+    const RenderSettings settings = settings_for(36, 36, 1);
+    const Compiled compiled(scene, settings);
+    const LightPathEmission emission = compiled.emission();
+    SceneTables tables = compiled.scene.tables();
+    tables.emission = emission.tables(36 * 36);
+    const KernelContext context{&tables, &compiled.scene.accel(), kernel_settings(settings, 36, 36), 3};
+    const auto scratch = std::make_unique<TileScratch>();
+    Workers(1).run([&] { trace_light_path_tile(context, kernel, emission, {1, 4096, 0, 4096}, *scratch); });
+    return scratch->light_paths->splats;
+}
+
+TEST(LightPaths, AreTheSameBitsFromEveryKernel) {
+    for (const auto& [name, scene] : lit_scenes()) {
+        SCOPED_TRACE(name);
+        const std::vector<Splat> expected = splats_of(scene, kernels_of("scalar").back());
+        ASSERT_GT(expected.size(), 100u);
+        for (const std::string_view isa : runnable_isas())
+            for (const Kernel& kernel : kernels_of(isa)) {
+                if (!kernel.trace_light_paths) continue;
+                const std::vector<Splat> splats = splats_of(scene, kernel);
+                ASSERT_EQ(splats.size(), expected.size()) << kernel.isa << "/" << kernel.name;
+                EXPECT_EQ(std::memcmp(splats.data(), expected.data(), sizeof(Splat) * splats.size()), 0)
+                    << kernel.isa << "/" << kernel.name;
+            }
+    }
+}
+
+TEST(LightPaths, DoNotDependOnThreadsAndParts) {
+    const Scene scene = lit_scenes()[0].second;
+    for (const bool adaptive : {false, true}) {
+        RenderSettings settings = settings_for(40, 30, 24);
+        settings.adaptive = adaptive;
+        const auto image = [&](unsigned threads, std::initializer_list<int64_t> counts) {
+            Renderer renderer({.threads = threads, .light_path_share = 0.5f});
+            renderer.update(scene, settings);
+            int64_t first = 0;
+            for (const int64_t count : counts) {
+                EXPECT_TRUE(renderer.render(first, count));
+                first += count;
+            }
+            return renderer.resolve();
+        };
+        const Frame whole = image(1, {24});
+        for (const Frame& other : {image(3, {24}), image(2, {1, 23}), image(2, {5, 11, 8})}) {
+            EXPECT_TRUE(same_pixels(whole, other));
+            EXPECT_EQ(whole.error.relmse, other.error.relmse);
+            EXPECT_EQ(whole.rays.total(), other.rays.total());
+        }
+    }
+}
+
+TEST(LightPaths, GoOnFromSavedSamples) {
+    const Scene scene = lit_scenes()[0].second;
+    const RenderSettings settings = settings_for(40, 30, 8);
+    Renderer begun({.threads = 2, .light_path_share = 0.5f}), continued({.threads = 2, .light_path_share = 0.5f});
+    for (Renderer* renderer : {&begun, &continued}) renderer->update(scene, settings);
+    EXPECT_TRUE(begun.render(0, 3));
+    const Result<FilmState> state = begun.save_film(0);
+    ASSERT_TRUE(state);
+    EXPECT_TRUE(begun.render(3, 5));
+    ASSERT_TRUE(continued.load_film(*state));
+    EXPECT_TRUE(continued.render(3, 5));
+    EXPECT_TRUE(same_pixels(begun.resolve(), continued.resolve()));
+}
+
+} // namespace
+} // namespace blush::test::TEST_FILE
