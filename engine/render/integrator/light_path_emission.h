@@ -17,7 +17,8 @@ public:
     static constexpr int64_t max_pairs = 1 << 20;
 
     LightPathEmission() = default;
-    // For lights with a size that NEE can sample. `scene`: contains all surfaces. Empty if no light reaches a caster, or there are too many pairs.
+    // For lights with a size that NEE can sample. `scene`: contains all surfaces. Empty if no light reaches a caster, or there are too many
+    // pairs.
     LightPathEmission(const SceneTables& tables, const CasterSphere& scene);
 
     bool empty() const { return chances_.empty(); }

@@ -132,7 +132,7 @@ double surface_cells(double photons, double occupied, int32_t side) {
 struct GuidingRegion {
     const std::vector<size_t>* cells; // with photons
     int32_t side;                     // of the cube, in cells
-    GuidingQuadtree tree;
+    GuidingQuadtree tree = {};
     double guided = 0;                              // share of samples
     double paths = 0;                               // vertices of paths in it
     double squared_mean = 0, with = 0, without = 0; // of estimates of the irradiance: squared mean, variances
