@@ -9,6 +9,7 @@
 #include "render/first_hit_planes.h"
 #include "render/frame.h"
 #include "render/light_mix/light_groups.h"
+#include "render/pilots/caustic_options.h"
 #include "scene/render_settings.h"
 #include "scene/scene.h"
 
@@ -27,8 +28,7 @@ struct RendererOptions {
     bool low_priority = false;
     PlaneSet planes = {};
     bool filter_textures = true; // false: to measure the effect of filtering
-    // Light paths for each camera path, where they are possible; empty: a pilot decides. To measure their effect.
-    std::optional<float> light_path_share = {};
+    CausticOptions caustics = {};
 };
 
 // World-space position of a light meter, lit from the side of its normal.

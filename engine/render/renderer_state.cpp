@@ -64,7 +64,7 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     splats = false;
     reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
-    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.light_path_share));
+    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
     if (outdated != Outdated::film) learned.keep_from(before);
     info.reset();
     kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
@@ -94,7 +94,7 @@ void Renderer::select_lights_by_mix() {
     State& s = *state_;
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
-    s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.light_path_share);
+    s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.caustics);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -107,7 +107,7 @@ void Renderer::set_planes(const PlaneSet& planes) {
     if (!covered) {
         clear();
         s.splats = false;
-        s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.light_path_share); // some planes exclude light paths
+        s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.caustics); // some planes exclude light paths
     } else if (!s.film_is_stale)
         s.film.keep_only(planes);
 }

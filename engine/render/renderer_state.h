@@ -79,12 +79,13 @@ struct Renderer::State {
     int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
     int reuse_group_size(int64_t sample) const {
         if (divider > 1) return reuse.first_group_size();
-        // Light paths do not know the densities of path reuse.
-        return decided_as(sample) > 0 && learned.light_paths().pays() ? 1 : reuse.group_size(decided_as(sample));
+        // Light paths and manifold sampling do not know the densities of path reuse.
+        return decided_as(sample) > 0 && learned.excludes_reuse() ? 1 : reuse.group_size(decided_as(sample));
     }
     // The kernel for samples of these tables.
     const Kernel& kernel_for(const SceneTables& tables) const {
-        return tables.emission.empty() ? *kernel : kernel_like(*kernel, kernel->features.with(Feature::light_paths));
+        return tables.emission.empty() && tables.manifolds.empty() ? *kernel
+                                                                   : kernel_like(*kernel, kernel->features.with(Feature::light_paths));
     }
 
     FilmSize full_film() const {

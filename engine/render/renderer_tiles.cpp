@@ -161,7 +161,7 @@ bool Renderer::State::renew_first_sample(const Wanted& wanted) {
 
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(const Wanted& wanted) {
-    const auto may_reuse = [&] { return reuse.needs_pilot() && !learned.light_paths().pays(); };
+    const auto may_reuse = [&] { return reuse.needs_pilot() && !learned.excludes_reuse(); };
     if (!learned.needs_pilot() && !may_reuse() && !edges.needs_pilot()) return true;
     SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);

@@ -5,6 +5,7 @@
 #include "shading/environment.h"
 #include "shading/light.h"
 #include "shading/light_emission.h"
+#include "shading/manifold_seeds.h"
 #include "shading/material.h"
 #include "shading/path_guiding.h"
 
@@ -75,8 +76,9 @@ struct SceneTables {
     LightTables lights;
     EnvironmentTables environment;
     GuideTables guides;
-    EmissionTables emission; // null: no light paths
-    GroupTables groups;      // null: no light mix
+    EmissionTables emission;  // null: no light paths
+    ManifoldTables manifolds; // null: no manifold sampling
+    GroupTables groups;       // null: no light mix
     LinkTables links;
     bool blends = false; // some part may be neither opaque nor clear: shadow rays carry its transmittance
     bool panes = false;  // some part is a wall that may transmit straight through (thin_transmission.h)

@@ -17,11 +17,47 @@ template <class F> F emission_mis_weight(Strategy strategy, const F& bsdf_pdf, c
     if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
     return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
 }
-// The MIS weight of emission at `position` beside light paths (light_path_weights.h).
+// True if some surface samples manifolds (manifold_sampling.h).
+template <Features S> bool samples_manifolds(const SceneTables& scene) {
+    if constexpr (S.has(Feature::light_paths)) return !scene.manifolds.empty();
+    return false;
+}
+// True if diffuse vertices at this bounce begin chains: with light paths, those that they cannot connect to the camera.
+template <Features S> bool starts_chains(const SceneTables& scene, int bounce) {
+    return samples_manifolds<S>(scene) && (bounce > 0 || scene.emission.empty());
+}
+// Path::chain: in its low byte 1 behind a Lambertian surface, and 1 more for each event; above the events (shading/manifold_seeds.h).
+template <class F> Int<F> chain_length(const Int<F>& chain) { return (chain & 0xff) - 1; }
+template <class F> Int<F> begun_chain() { return Int<F>(1); }
+template <class F> Int<F> longer_chain(const Int<F>& chain, const Mask<F>& refracts) {
+    Int<F> place = Int<F>(0x100);
+    for (int i = 0; i < max_chain_events; ++i) place = select(as_mask(chain_length<F>(chain) > i), Int<F>(place << 1), place);
+    return (chain + 1) | select(refracts, place, Int<F>(0));
+}
+template <class F> Mask<F> may_grow(const Int<F>& chain) {
+    return as_mask(chain > 0) && as_mask(chain_length<F>(chain) <= max_chain_events);
+}
+template <class F> Mask<F> is_chain(const Int<F>& chain) {
+    return as_mask(chain_length<F>(chain) > 0) && as_mask(chain_length<F>(chain) <= max_chain_events);
+}
+// Light that manifold sampling finds, too, from the diffuse surface before (manifold_hits.h).
+template <Features S, class F>
+Mask<F> found_by_manifolds(const SceneTables& scene, const Path<F>& path, const Int<F>& light, const Mask<F>& active) {
+    if constexpr (S.has(Feature::light_paths)) {
+        if (!samples_manifolds<S>(scene)) return Mask<F>(false);
+        const Mask<F> chained = active && is_chain<F>(path.chain) && as_mask(light >= 0) && as_mask(light < scene.manifolds.lights);
+        if (!any(chained)) return chained;
+        return chained && as_mask(gather(scene.manifolds.group_of_light, select(chained, light, Int<F>(0))) >= 0);
+    } else
+        return Mask<F>(false);
+}
+// The MIS weight of emission at `position` beside light paths (light_path_weights.h), which do not find that of manifold sampling.
 template <Features S, class F> F beside_light_paths(const SceneTables& scene, const F& weight, const Path<F>& path, const Int<F>& light,
                                                     const Vec<F>& position, const Vec<F>& normal, const Mask<F>& active) {
-    if constexpr (S.has(Feature::light_paths))
-        return weight_beside(weight, light_path_ratio<S, F>(scene, path, light, position, normal, active));
+    if constexpr (S.has(Feature::light_paths)) {
+        const F beside = weight_beside(weight, light_path_ratio<S, F>(scene, path, light, position, normal, active));
+        return select(found_by_manifolds<S, F>(scene, path, light, active), weight, beside);
+    }
     return weight;
 }
 // MIS weight of emission hit by the path's ray, considering light linking of the surface that the ray left.
@@ -64,6 +100,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
                 const F pdf = cone_pdf(F(sun.cone_height)) * nee_probability<S, F>(scene, from, Int<F>(lights.suns[i]), inside);
                 weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
                 weight = beside_light_paths<S, F>(scene, weight, path, Int<F>(lights.suns[i]), path.ray.origin, path.normal, inside);
+                weight = select(found_by_manifolds<S, F>(scene, path, Int<F>(lights.suns[i]), inside), F(0.f), weight);
             }
             weight = if_linked<S, F>(scene, weight, Int<F>(lights.suns[i]), path, inside);
             visit(lights.suns[i], splat<F>(sun.emission) * weight, weight, inside);

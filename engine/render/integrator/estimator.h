@@ -38,6 +38,7 @@ template <Features S, class F> Path<F> begin_path(const SceneTables& scene, cons
     path.part = Int<F>(from_camera);
     path.dispersed = Int<F>(0);
     path.light_ratio = path.emission_ratio = F(0.f);
+    path.chain = Int<F>(0);
     path.cone = F(0.f);
     if constexpr (S.has(Feature::textures)) path.cone = cone_at_camera<F>(scene.camera, settings);
     return path;
@@ -80,7 +81,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const ShadingPoint<F> p{surface,    material.bsdf, shading, bsdf, beta, scatters, scatters && is_lambertian<S, F>(bsdf),
                             side.solid, dispersed};
     if (bounce == 0) first_hit_planes<S, F>(scene, hit, lanes, p, side.wo, out.emitted, out.first);
-    if (bounce <= 1) set_reuse_vertex<F>(p, out.reuse_vertex);
+    if (bounce <= 1 || samples_manifolds<S>(scene)) set_reuse_vertex<F>(p, out.reuse_vertex);
     if (bounce >= settings.max_bounces) return out;
 
     const Sampler<F> sampler{path.key, path.index};
@@ -102,7 +103,10 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     roulette<S, F>(settings, p, indirect, bounce, choice.y(), next_beta, out);
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;
+    out.crosses = indirect.outward != (dot(side.wo, p.shading.ng) > F(0.f));
+    out.internal = side.solid && !side.front && !out.crosses;
     next_path<S, F>(path, p, setup, indirect, next_beta, cone, out.next);
+    if constexpr (S.has(Feature::light_paths)) out.next.chain = next_chain<S, F>(scene, path, p, indirect, out, bounce);
     if (beside) continue_ratios<S, F>(scene, settings, p, material, side.wo, indirect, light_ratio, bounce, out.next);
     return out;
 }

@@ -19,6 +19,8 @@ template <class F> struct Path {
     // Only with Feature::light_paths: density with which light paths sample the path up to its last vertex, from there to the camera, over
     // that of the path (light_path_weights.h); and the same where the light found next may be connected by light paths, else 0.
     F light_ratio, emission_ratio;
+    // Only with Feature::light_paths: the chain of manifold sampling since the last Lambertian surface (emission_hit.h), else 0.
+    Int<F> chain;
 };
 
 // First-hit data of a path, for denoising and picking.
@@ -48,6 +50,8 @@ template <class F> struct ReuseVertex {
 template <class F> struct Step {
     ReuseVertex<F> reuse_vertex; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
+    Mask<F> crosses;     // the path goes on at the other side of the surface
+    Mask<F> internal;    // it is reflected within a solid
     Mask<F> non_finite;  // throughput is not finite: the path ends, and the film drops and counts the sample
     Vec<F> emitted;      // add where `emits`
     Vec<F> direct;       // add where `connects` and the shadow ray is unoccluded

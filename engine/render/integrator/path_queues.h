@@ -21,9 +21,11 @@ template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
     p.index = load<UInt<F>>(q.index + k);
     p.slot = load<Int<F>>(q.slot + k);
     p.light_ratio = p.emission_ratio = F(0.f);
+    p.chain = Int<F>(0);
     if constexpr (S.has(Feature::light_paths)) {
         p.light_ratio = load<F>(q.light_ratio + k);
         p.emission_ratio = load<F>(q.emission_ratio + k);
+        p.chain = load<Int<F>>(q.chain + k);
     }
     return p;
 }
@@ -50,6 +52,7 @@ template <Features S, class F> void append(PathQueue& q, const Path<F>& p, const
     if constexpr (S.has(Feature::light_paths)) {
         compress(q.light_ratio + k, p.light_ratio, b);
         compress(q.emission_ratio + k, p.emission_ratio, b);
+        compress(q.chain + k, p.chain, b);
     }
     compress(q.key + k, p.key, b);
     compress(q.index + k, p.index, b);
@@ -156,8 +159,9 @@ template <class F> void record_guiding(GuidingTrials& guiding, const Path<F>& ne
 }
 
 // Replaces the camera rays in the queue by photons.
-inline void emit_photons(const PhotonTrials& photons, PathQueue& q) {
+inline void emit_photons(PhotonTrials& photons, PathQueue& q) {
     q.size = int(photons.emitted.size());
+    photons.events.assign(photons.emitted.size(), 0);
     for (int k = 0; k < q.size; ++k) {
         const EmittedPhoton& p = photons.emitted[size_t(k)];
         q.ox[k] = p.origin.x;
@@ -170,11 +174,26 @@ inline void emit_photons(const PhotonTrials& photons, PathQueue& q) {
     }
 }
 // Records photons that smooth lobes have sent to diffuse surfaces: those that go on from there with the density of a diffuse lobe.
-template <class F> void record_photons(PhotonTrials& photons, const Path<F>& path, const Path<F>& next, const Mask<F>& lanes) {
-    const Mask<F> arrived = lanes && path.pdf > F(min_focused_pdf) && next.pdf <= F(1.001f * inv_pi);
-    for_each_lane(bits(arrived), [&](int i) {
+template <class F> void record_photons(PhotonTrials& photons, const Path<F>& path, const Step<F>& step, int bounce, const Mask<F>& lanes) {
+    const Path<F>& next = step.next;
+    const Mask<F> diffuse = next.pdf <= F(1.001f * inv_pi),
+                  arrived = lanes && path.pdf > F(min_focused_pdf) && diffuse && Mask<F>(bounce > 0);
+    const unsigned arrived_lanes = bits(arrived), delta = bits(next.pdf == F(infinity)), crosses = bits(step.crosses),
+                   internal = bits(step.internal);
+    for_each_lane(bits(lanes), [&](int i) {
         const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
-        photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
+        int32_t& events = photons.events[size_t(lane(path.slot, i))];
+        if (arrived_lanes >> i & 1) {
+            photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
+            if (events > 0)
+                photons.chains.push_back({at(next.ray.origin), at(next.normal), at(path.ray.origin), events,
+                                          photons.emitted[size_t(lane(path.slot, i))].light, luminance(at(path.beta))});
+        }
+        const int32_t count = events >> chain_count_shift;
+        if (events < 0 || !(delta >> i & 1) || internal >> i & 1 || count == max_chain_events)
+            events = -1;
+        else
+            events = (count + 1) << chain_count_shift | (events & ((1 << count) - 1)) << 1 | int32_t(crosses >> i & 1);
     });
 }
 

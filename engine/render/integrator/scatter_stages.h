@@ -191,12 +191,23 @@ template <Features S, class F> [[gnu::always_inline]] inline void next_path(cons
     next.index = path.index;
     next.slot = path.slot;
     next.light_ratio = next.emission_ratio = F(0.f);
+    next.chain = Int<F>(0);
     if constexpr (S.has(Feature::links)) next.part = p.surface.part;
     if constexpr (S.has(Feature::dispersion)) next.dispersed = select(p.dispersed, Int<F>(1), Int<F>(0));
     if constexpr (S.has(Feature::textures)) {
         const Mask<F> flat = p.shading.ns.x == p.shading.ng.x && p.shading.ns.y == p.shading.ng.y && p.shading.ns.z == p.shading.ng.z;
         next.cone = scattered_cone<F>(cone, s.bsdf.delta, flat);
     }
+}
+
+// Path::chain behind this vertex. A reflection within a solid ends a chain (manifold_sampling.h).
+template <Features S, class F> Int<F> next_chain(const SceneTables& scene, const Path<F>& path, const ShadingPoint<F>& p,
+                                                 const IndirectSample<F>& s, const Step<F>& step, int bounce) {
+    if (!samples_manifolds<S>(scene)) return Int<F>(0);
+    const Int<F> flags = gather_field(scene.materials.materials, &MaterialRecord::flags, p.surface.material);
+    const Mask<F> begins = p.lambertian && !p.shading.behind && Mask<F>(starts_chains<S>(scene, bounce));
+    const Mask<F> goes_on = s.bsdf.delta && !step.internal && may_grow<F>(path.chain) && as_mask((flags & int32_t(material_chains)) != 0);
+    return select(goes_on, longer_chain<F>(path.chain, step.crosses), select(begins, begun_chain<F>(), Int<F>(0)));
 }
 
 // True if samples are weighted beside light paths (light_path_weights.h); the next three functions are for them.

@@ -5,6 +5,7 @@
 #include "render/integrator/blended_background.h"
 #include "render/integrator/estimator.h"
 #include "render/integrator/group_sums.h"
+#include "render/integrator/manifold_sampling.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/path_reuse.h"
 #include "render/integrator/thin_transmission.h"
@@ -138,6 +139,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
                                                                     const PathQueue& now, PathQueue& next, int bounce) {
     next.size = 0;
     scratch.shadows.size = 0;
+    if (samples_manifolds<S>(*context.scene) && !scratch.manifolds) scratch.manifolds = std::make_unique<ManifoldColumns>();
     const bool blends = context.scene->blends;
     SampledTimer light_timer;
     for (int k = 0; k < now.size; k += width<F>) {
@@ -158,6 +160,12 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             store_reuse_vertex<F>(*scratch.reuse, now, k, bounce, reuse_vertex);
         }
         if (scratch.roulette) note_roulette<F>(*scratch.roulette, now.slot + k, step, active, bounce);
+        if constexpr (S.has(Feature::light_paths))
+            if (samples_manifolds<S>(*context.scene)) {
+                ManifoldHitColumns& hits = scratch.manifolds->hits;
+                take_chain_hits<S, F>(*context.scene, hits, path, load_hit<F>(scratch.hits, k), bounce, active, step);
+                note_chain_starts<F>(hits, path, step);
+            }
         add_emission<S, F>(context, scratch, now.slot + k, k, path, bounce, active, step);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
         if (any(step.connects)) {
@@ -174,11 +182,13 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             if (scratch.trials) record_trials<F>(scratch, step, step.connects);
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
+        if constexpr (S.has(Feature::light_paths))
+            if (samples_manifolds<S>(*context.scene)) add_receivers<S, F>(context, scratch, path, step, bounce, active);
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
         if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
         if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
-        if (scratch.photons && bounce > 0) record_photons<F>(*scratch.photons, path, step.next, step.continues);
+        if (scratch.photons) record_photons<F>(*scratch.photons, path, step, bounce, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
     return light_timer.estimate();
@@ -246,6 +256,8 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         }
         timer.end(Stage::shade, light_ticks);
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
+        if constexpr (S.has(Feature::light_paths))
+            if (samples_manifolds<S>(*context.scene)) sample_manifolds<S, F>(context, scratch, *now, bounce);
         timer.end(Stage::shadow);
         if (scratch.guiding) scratch.guiding->note_arrived(radiance_of);
         std::swap(now, next);

@@ -10,6 +10,7 @@
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/light_path_columns.h"
+#include "render/kernels/manifold_columns.h"
 #include "render/kernels/reuse_columns.h"
 #include "render/lights/escape_trial.h"
 #include "render/lights/guiding_trial.h"
@@ -40,7 +41,8 @@ struct PathQueue {
     Column<float> ox, oy, oz, dx, dy, dz, beta_r, beta_g, beta_b, pdf;
     Column<float> nx, ny, nz;                  // with a light tree
     Column<float> cone;                        // with textures
-    Column<float> light_ratio, emission_ratio; // with light paths
+    Column<float> light_ratio, emission_ratio; // with light paths, as the next
+    Column<int32_t> chain;
     Column<uint32_t> key, index;
     Column<int32_t> slot;
     Column<int32_t> part;      // that the ray left, -1: the camera; written only if lights may be linked
@@ -106,6 +108,7 @@ struct TileScratch {
     std::unique_ptr<GuidingTrials> guiding;           // null: not recorded; not with path reuse
     std::unique_ptr<PhotonTrials> photons;            // null: paths begin at the camera; else one for each path of the tile
     std::unique_ptr<LightPathColumns> light_paths;    // null: no light paths
+    std::unique_ptr<ManifoldColumns> manifolds;       // allocated by the first kernel with manifold sampling
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

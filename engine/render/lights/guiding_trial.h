@@ -18,12 +18,21 @@ struct GuidingTrial {
 // A photon as it leaves a light.
 struct EmittedPhoton {
     Vec3 origin{0, 0, 0}, direction{0, 0, 1};
-    float flux = 0; // luminance: nits m2 sr
+    float flux = 0;     // luminance: nits m2 sr
+    int32_t light = -1; // record
+};
+
+// A photon on a diffuse surface that it has reached from its light by delta lobes alone.
+struct ChainPhoton {
+    Vec3 position, normal, target; // target: point of its last surface before
+    int32_t chain, light;          // events from here to the light (shading/manifold_seeds.h), record
+    float flux;
 };
 
 // Where the photons of a scene arrived after smooth surfaces. Their flux is `emitted` times that of the caustics.
 struct CausticPhotons {
     std::vector<GuidingTrial> arrived;
+    std::vector<ChainPhoton> chains;
     int64_t emitted = 0;
 };
 
@@ -31,6 +40,8 @@ struct CausticPhotons {
 struct PhotonTrials {
     std::vector<EmittedPhoton> emitted; // by slot
     std::vector<GuidingTrial> arrived;
+    std::vector<ChainPhoton> chains;
+    std::vector<int32_t> events; // by slot: those so far, the last first; -1: not all of them are of delta lobes
 };
 
 // The trials of a tile's paths, accumulated.

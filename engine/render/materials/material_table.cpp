@@ -2,6 +2,7 @@
 
 #include "render/materials/material_factors.h"
 #include "render/materials/material_layers.h"
+#include "shading/microfacet.h"
 
 #include <fmt/format.h>
 
@@ -78,6 +79,14 @@ std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector
     return sources;
 }
 
+// True if delta lobes of the material can be events of manifold sampling: their normal is the interpolated one, and they are the same
+// whatever the width that textures are filtered over.
+bool may_chain(const Material& m) {
+    return reflects(m) && unit(m.roughness) < smooth_roughness && !m.metallic_roughness_texture.texture && !has_normal_map(m) &&
+           m.alpha == Material::Alpha::opaque && !is_coated(m) && !has_sheen(m) && !is_anisotropic(m) && !is_translucent(m) &&
+           (!transmits(m) || is_solid(m));
+}
+
 MaterialRecord factors_of(const Material& m) {
     MaterialRecord r;
     r.base_color = within(m.base_color, 0, 1);
@@ -97,6 +106,7 @@ MaterialRecord factors_of(const Material& m) {
     if (m.double_sided) r.flags |= material_double_sided;
     if (m.unlit) r.flags |= material_unlit;
     if (may_pass_straight(m)) r.flags |= material_pane;
+    if (may_chain(m)) r.flags |= material_chains;
     if (m.alpha != Material::Alpha::opaque) {
         r.alpha = m.alpha == Material::Alpha::mask ? alpha_mask : alpha_blend;
         r.opacity = unit(m.opacity);

@@ -18,7 +18,6 @@ constexpr int photon_tile = 64; // photons along a side
 static_assert(photon_tile * photon_tile == tile_capacity);
 constexpr int path_pixels = 1 << 14; // of the image whose paths are measured,
 constexpr int path_samples = 2;      // and samples of a pixel
-constexpr int path_tile = 16;        // pixels along a side
 // Photons of lights at infinity begin so many radii before their caster.
 constexpr float far_radii = 64;
 
@@ -49,8 +48,9 @@ struct PhotonSource {
         const Pair<float> target = sampler.pair(target_dimension);
         const Vec2T<float> disk = sample_disk(target.x(), target.y());
         const Vec3 wi = normalize(to_light), to = caster.center + basis_around(wi).to_world(Vec3{disk.x, disk.y, 0}) * caster.radius;
-        if (light.infinite) return {to + wi * (far_radii * caster.radius), -wi, irradiance * area};
-        return {offset_origin(light.position, light.error, light.normal, true), normalize(to - light.position), irradiance * area};
+        if (light.infinite) return {to + wi * (far_radii * caster.radius), -wi, irradiance * area, light.light};
+        return {offset_origin(light.position, light.error, light.normal, true), normalize(to - light.position), irradiance * area,
+                light.light};
     }
     // From inside: towards a point of the sphere.
     EmittedPhoton from_within(const CasterSphere& caster, const Sampler<float>& sampler) const {
@@ -63,7 +63,7 @@ struct PhotonSource {
         const Vec3 direction = normalize(to - light.position);
         const float area = 4 * float(pi) * caster.radius * caster.radius;
         const float flux = irradiance_of(scene, light, to) * max(0.f, dot(outward, direction)) * area;
-        return {offset_origin(light.position, light.error, light.normal, true), direction, flux};
+        return {offset_origin(light.position, light.error, light.normal, true), direction, flux, light.light};
     }
     EmittedPhoton emit(uint32_t number) const {
         const Sampler<float> sampler{pcg_hash(photon_seed), number};
@@ -99,8 +99,8 @@ KernelContext pilot_context(KernelContext context) {
     return context;
 }
 
-std::vector<GuidingTrial> joined(const std::vector<std::vector<GuidingTrial>>& of_tile) {
-    std::vector<GuidingTrial> all;
+template <class T> std::vector<T> joined(const std::vector<std::vector<T>>& of_tile) {
+    std::vector<T> all;
     for (const auto& some : of_tile) all.insert(all.end(), some.begin(), some.end());
     return all;
 }
@@ -124,15 +124,17 @@ std::shared_ptr<const CausticPhotons> trace_caustic_photons(KernelContext contex
     const auto pixels = int64_t(double(context.settings.width) * double(context.settings.height));
     const int64_t tiles = std::clamp(pixels / pixels_per_photon_tile, min_photon_tiles, max_photon_tiles);
     std::vector<std::vector<GuidingTrial>> of_tile((size_t(tiles)));
+    std::vector<std::vector<ChainPhoton>> chains_of_tile((size_t(tiles)));
     const bool traced = for_each_pilot_tile(of_tile.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
         tile.photons = std::make_unique<PhotonTrials>();
         for (uint32_t k = 0; k < uint32_t(tile_capacity); ++k)
             tile.photons->emitted.push_back(source.emit(uint32_t(i) * uint32_t(tile_capacity) + k));
         kernel.render(context, {.x = int(i) * photon_tile, .y = 0, .width = photon_tile, .height = photon_tile}, tile);
+        chains_of_tile[i] = std::move(tile.photons->chains);
         of_tile[i] = std::move(std::exchange(tile.photons, nullptr)->arrived);
     });
     if (!traced) return nullptr;
-    return std::make_shared<const CausticPhotons>(CausticPhotons{joined(of_tile), tiles * tile_capacity});
+    return std::make_shared<const CausticPhotons>(CausticPhotons{joined(of_tile), joined(chains_of_tile), tiles * tile_capacity});
 }
 
 std::optional<GuidingField> learn_path_guiding(KernelContext context, const CausticPhotons& photons, const Kernel& kernel,
@@ -140,25 +142,14 @@ std::optional<GuidingField> learn_path_guiding(KernelContext context, const Caus
                                                const std::function<bool()>& wanted) {
     if (photons.arrived.empty()) return GuidingField();
     context = pilot_context(context);
-    const double shrink = std::min(1.0, std::sqrt(path_pixels / (double(context.settings.width) * double(context.settings.height))));
-    const int width = std::max(1, int(double(context.settings.width) * shrink)),
-              height = std::max(1, int(double(context.settings.height) * shrink));
-    context.settings.width = float(width);
-    context.settings.height = float(height);
+    const PilotImage image = pilot_image(context.settings, path_pixels, path_samples);
+    context.settings.width = float(image.width);
+    context.settings.height = float(image.height);
     context.seed = path_seed;
-    std::vector<TileJob> tiles;
-    for (int y = 0; y < height; y += path_tile)
-        for (int x = 0; x < width; x += path_tile)
-            tiles.push_back({.x = x,
-                             .y = y,
-                             .width = std::min(path_tile, width - x),
-                             .height = std::min(path_tile, height - y),
-                             .first_sample = 0,
-                             .samples = path_samples});
-    std::vector<std::vector<GuidingTrial>> of_tile(tiles.size());
-    const bool measured = for_each_pilot_tile(tiles.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
+    std::vector<std::vector<GuidingTrial>> of_tile(image.tiles.size());
+    const bool measured = for_each_pilot_tile(image.tiles.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
         tile.guiding = std::make_unique<GuidingTrials>();
-        kernel.render(context, tiles[i], tile);
+        kernel.render(context, image.tiles[i], tile);
         of_tile[i] = std::move(std::exchange(tile.guiding, nullptr)->all);
     });
     if (!measured) return std::nullopt;

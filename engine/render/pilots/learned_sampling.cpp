@@ -12,9 +12,10 @@
 namespace blush {
 
 LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
-                                 std::optional<float> light_path_share)
+                                 const CausticOptions& options)
     : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
-      light_paths_(settings, scene, film, light_path_share), scene_sphere_(scene.bounding_sphere()) {}
+      light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options.manifold_sampling),
+      scene_sphere_(scene.bounding_sphere()) {}
 
 bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const Workers& workers,
                              std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
@@ -28,18 +29,26 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         choice.decide(*std::move(result));
         return true;
     };
+    std::shared_ptr<const CausticPhotons> traced;
     const auto learn_guiding = [&](const KernelContext& with, auto&&... others) -> std::optional<GuidingField> {
         const bool keeps = !visibility_.pays();
         auto photons = keeps && photons_ ? photons_ : trace_caustic_photons(with, others...);
         if (!photons) return std::nullopt;
         if (keeps) photons_ = photons;
+        traced = photons;
         return learn_path_guiding(with, *photons, others...);
     };
     const auto measure_paths = [&](const KernelContext& with, const Kernel& own, auto&&... others) {
         return measure_light_paths(with, scene_sphere_, kernel_like(own, own.features.with(Feature::light_paths)), others...);
     };
+    const auto measure_chains = [&](const KernelContext& with, const Kernel& own, auto&&... others) -> std::optional<ManifoldPilot> {
+        const Kernel& chains = kernel_like(own, own.features.with(Feature::light_paths));
+        if (!traced) traced = trace_caustic_photons(with, own, others...);
+        if (!traced) return std::nullopt;
+        return measure_manifolds(with, *traced, scene.guides.casters, chains, light_paths_.pays() ? chains : own, others...);
+    };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&
-           run(light_paths_, measure_paths);
+           run(light_paths_, measure_paths) && run(manifolds_, measure_chains);
 }
 
 } // namespace blush

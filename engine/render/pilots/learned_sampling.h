@@ -1,11 +1,13 @@
-// What pilots learn about sampling lights and directions: visibility of lights, portals, path guiding, light paths.
+// What pilots learn about sampling lights and directions: visibility of lights, portals, path guiding, light paths, manifold sampling.
 #pragma once
 
 #include "core/parallel.h"
 #include "render/compile/feature_report.h"
 #include "render/kernels/kernel.h"
+#include "render/pilots/caustic_options.h"
 #include "render/pilots/guiding_choice.h"
 #include "render/pilots/light_path_choice.h"
+#include "render/pilots/manifold_choice.h"
 #include "render/pilots/portal_choice.h"
 #include "render/pilots/visibility_choice.h"
 
@@ -20,15 +22,15 @@ namespace blush {
 class LearnedSampling {
 public:
     LearnedSampling() = default;
-    // For a new image of a compiled scene. `film`: its planes. `light_path_share`: as RendererOptions.
-    LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
-                    std::optional<float> light_path_share = {});
+    // For a new image of a compiled scene. `film`: its planes.
+    LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, const CausticOptions& options = {});
 
     // Takes over what does not depend on the camera. `before`: for an image that differs at most in the view.
     void keep_from(const LearnedSampling& before) { photons_ = before.photons_; }
 
     bool needs_pilot() const {
-        return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() || light_paths_.needs_pilot();
+        return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() || light_paths_.needs_pilot() ||
+               manifolds_.needs_pilot();
     }
     // Runs the pilots that are needed; each measures the samples as those before it have decided. `context`: as for the film at full
     // resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. False if
@@ -37,24 +39,32 @@ public:
                 const std::function<bool()>& wanted);
 
     // True if other samples than the first are rendered in another way.
-    bool pays() const { return visibility_.pays() || portals_.pays() || guiding_.pays() || light_paths_.pays(); }
+    bool pays() const { return visibility_.pays() || portals_.pays() || guiding_.pays() || light_paths_.pays() || manifolds_.pays(); }
     // True if the noise of a first sample without would be more than twice that of the others: below, discarding it would lose more than
     // its noise takes from the mean. Always with light paths, whose share of the image is missing there.
-    bool renews_first() const { return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much() || light_paths_.pays(); }
+    bool renews_first() const {
+        return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much() || light_paths_.pays() || manifolds_.gains_much();
+    }
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as this object and
     // the scene.
     SceneTables tables(const SceneTables& scene, int64_t sample) const {
-        return light_paths_.tables(guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample), sample);
+        const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
+        return manifolds_.tables(light_paths_.tables(t, sample), sample);
     }
     const LightPathChoice& light_paths() const { return light_paths_; }
+    // True if samples are connected to other vertices than path reuse knows.
+    bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
 
-    FeatureReport report() const { return {visibility_.report(), portals_.report(), guiding_.report(), light_paths_.report()}; }
+    FeatureReport report() const {
+        return {visibility_.report(), portals_.report(), guiding_.report(), light_paths_.report(), manifolds_.report()};
+    }
 
 private:
     VisibilityChoice visibility_;
     PortalChoice portals_;
     GuidingChoice guiding_;
     LightPathChoice light_paths_;
+    ManifoldChoice manifolds_;
     CasterSphere scene_sphere_{};
     std::shared_ptr<const CausticPhotons> photons_; // as traced without learned visibility, which depends on the camera; may be null
 };

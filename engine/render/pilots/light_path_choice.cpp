@@ -1,6 +1,7 @@
 #include "render/pilots/light_path_choice.h"
 
 #include "render/compile/render_scene.h"
+#include "render/pilots/caustic_limits.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -8,21 +9,10 @@
 namespace blush {
 namespace {
 
-// Why light paths cannot be used or gain nothing; null if they may.
+// Splats are not samples, so they cannot be clamped as such.
 const char* why_no_light_paths(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
-    const SceneTables& tables = scene.tables();
-    if (tables.guides.casters.count == 0) return "no mirror or glass has light to focus";
-    if (settings.strategy != Strategy::mis) return "light and BSDF sampling are not combined";
-    if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";
-    if (tables.blends) return "a surface is blended";
-    if (tables.panes) return "a pane transmits light straight through";
-    if (tables.links.lit_sets) return "a light is linked to objects";
-    if (scene.features().has(Feature::dispersion)) return "a solid has dispersion";
-    if (film.groups > 0) return "the light mix is on";
-    if (film.planes.bounces > 0 || film.planes.roulette) return "a layer or a view shows paths by their length";
-    if (film.catches) return "there is a shadow catcher";
-    if (settings.clamp.limit > 0) return "samples are clamped";
-    return nullptr;
+    const char* why = why_no_caustics(settings, scene, film);
+    return !why && settings.clamp.limit > 0 ? "samples are clamped" : why;
 }
 
 } // namespace

@@ -14,8 +14,7 @@ namespace {
 // Any; they only have to differ from each other and from those of images.
 constexpr uint32_t light_seed = 0x11a7a000, camera_seed = 0x11a7a001;
 constexpr int pilot_pixels = 1 << 14; // of the image that is measured,
-constexpr int camera_tile = 16;       // pixels along a side of its tiles,
-constexpr int error_tile = 8;         // and of those whose mean relative errors refer to
+constexpr int error_tile = 8;         // pixels along a side of the tiles whose mean relative errors refer to
 constexpr int light_tiles = 16;       // of tile_capacity light paths
 constexpr std::array<float, 5> shares{0.125f, 0.25f, 0.5f, 1, 2};
 constexpr double least_ratio = 1e-9; // of densities: light that the camera cannot find at all
@@ -90,19 +89,6 @@ PilotFigures figures_of(const Measured& m, size_t k) {
             .work = k > 0 && m.camera_work > 0 ? 1 + double(shares[k - 1]) * m.light_work / m.camera_work : 1};
 }
 
-std::vector<TileJob> camera_tiles(int width, int height) {
-    std::vector<TileJob> tiles;
-    for (int y = 0; y < height; y += camera_tile)
-        for (int x = 0; x < width; x += camera_tile)
-            tiles.push_back({.x = x,
-                             .y = y,
-                             .width = std::min(camera_tile, width - x),
-                             .height = std::min(camera_tile, height - y),
-                             .first_sample = 0,
-                             .samples = pilot_samples});
-    return tiles;
-}
-
 } // namespace
 
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
@@ -110,9 +96,8 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
                                                   const std::function<bool()>& wanted) {
     LightPathPilot pilot{LightPathEmission(*context.scene, scene_sphere), 0, {}};
     if (pilot.emission.empty()) return pilot;
-    const double shrink = std::min(1.0, std::sqrt(pilot_pixels / (double(context.settings.width) * double(context.settings.height))));
-    const int width = std::max(1, int(double(context.settings.width) * shrink)),
-              height = std::max(1, int(double(context.settings.height) * shrink));
+    const PilotImage image = pilot_image(context.settings, pilot_pixels);
+    const int width = image.width, height = image.height;
     const auto paths = float(width) * float(height);
     SceneTables tables = *context.scene;
     tables.emission = pilot.emission.tables(paths);
@@ -147,7 +132,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
         m.light_work += works[size_t(i)] * double(paths) / (double(light_tiles) * tile_capacity);
     }
     context.seed = camera_seed;
-    const std::vector<TileJob> tiles = camera_tiles(width, height);
+    const std::vector<TileJob>& tiles = image.tiles;
     std::vector<Variant> variants(tiles.size());
     if (!for_each_tile(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
         return std::nullopt;

@@ -13,6 +13,21 @@ constexpr int film_tiles_per_tile = 16;      // between these, one for so many t
 
 } // namespace
 
+PilotImage pilot_image(const EstimatorSettings& settings, int pixels, int samples) {
+    constexpr int side = 16;
+    const double shrink = std::min(1.0, std::sqrt(double(pixels) / (double(settings.width) * double(settings.height))));
+    PilotImage image{std::max(1, int(double(settings.width) * shrink)), std::max(1, int(double(settings.height) * shrink)), {}};
+    for (int y = 0; y < image.height; y += side)
+        for (int x = 0; x < image.width; x += side)
+            image.tiles.push_back({.x = x,
+                                   .y = y,
+                                   .width = std::min(side, image.width - x),
+                                   .height = std::min(side, image.height - y),
+                                   .first_sample = 0,
+                                   .samples = samples});
+    return image;
+}
+
 std::vector<TileJob> pilot_tiles(int width, int height) {
     const int across = (width + pilot_tile_side - 1) / pilot_tile_side, down = (height + pilot_tile_side - 1) / pilot_tile_side;
     const int all = across * down;

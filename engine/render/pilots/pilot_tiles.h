@@ -13,6 +13,14 @@ constexpr int pilot_samples = 8;   // of each pixel, both halves together
 // paths.
 constexpr int pilot_max_bounces = 8;
 
+// The whole image at a low resolution, with the same view.
+struct PilotImage {
+    int width, height;
+    std::vector<TileJob> tiles; // of 16 x 16 pixels, with `samples` samples each
+};
+// Of at most about so many pixels. Reads the size of the image from `settings`.
+PilotImage pilot_image(const EstimatorSettings& settings, int pixels, int samples = pilot_samples);
+
 // At most 64 tiles for a film of this size, spread by the R2 sequence (Roberts 2018), whatever its aspect ratio.
 std::vector<TileJob> pilot_tiles(int width, int height);
 

@@ -129,7 +129,7 @@ std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, flo
     std::vector<std::array<Moments, 3>> moments;
     for (int k = 0; k < images; ++k) {
         settings.seed = first_seed + uint32_t(k);
-        Renderer renderer({.threads = 2, .light_path_share = share});
+        Renderer renderer({.threads = 2, .caustics = {.light_path_share = share}});
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
         const RenderedImage image = image_of(renderer);
@@ -208,7 +208,7 @@ TEST(LightPaths, DoNotDependOnThreadsAndParts) {
         RenderSettings settings = settings_for(40, 30, 24);
         settings.adaptive = adaptive;
         const auto image = [&](unsigned threads, std::initializer_list<int64_t> counts) {
-            Renderer renderer({.threads = threads, .light_path_share = 0.5f});
+            Renderer renderer({.threads = threads, .caustics = {.light_path_share = 0.5f}});
             renderer.update(scene, settings);
             int64_t first = 0;
             for (const int64_t count : counts) {
@@ -229,7 +229,8 @@ TEST(LightPaths, DoNotDependOnThreadsAndParts) {
 TEST(LightPaths, GoOnFromSavedSamples) {
     const Scene scene = lit_scenes()[0].second;
     const RenderSettings settings = settings_for(40, 30, 8);
-    Renderer begun({.threads = 2, .light_path_share = 0.5f}), continued({.threads = 2, .light_path_share = 0.5f});
+    Renderer begun({.threads = 2, .caustics = {.light_path_share = 0.5f}}),
+        continued({.threads = 2, .caustics = {.light_path_share = 0.5f}});
     for (Renderer* renderer : {&begun, &continued}) renderer->update(scene, settings);
     EXPECT_TRUE(begun.render(0, 3));
     const Result<FilmState> state = begun.save_film(0);

@@ -1,0 +1,171 @@
+// The receivers of manifold sampling (manifold_sampling.h): Lambertian vertices of paths, each with a point of a light.
+#pragma once
+
+#include "render/integrator/emission_hit.h"
+#include "render/kernels/kernel.h"
+#include "shading/path_guiding.h"
+
+#include <memory>
+
+namespace blush::inline BLUSH_ISA {
+
+// hit: of a path that has found the light by chance (manifold_hits.h).
+enum ReceiverFlag : int32_t { receiver_infinite = 1, receiver_two_sided = 2, receiver_hit = 4 };
+
+// Share of samples that take their light from the seeds of the whole scene.
+constexpr float global_share = 0.1f;
+// Of the size of the light: the distance from its point at which a walk has converged.
+constexpr float converged_share = 2e-3f;
+
+template <class F> Vec<F> load3(const Columns3& c, const Int<F>& i) { return {gather(c.x, i), gather(c.y, i), gather(c.z, i)}; }
+
+// Independent random numbers in [0, 1).
+template <class F> F next_random(UInt<F>& state) {
+    state = state + 0x9e3779b9u;
+    return unit_float<F>(pcg_hash(state));
+}
+
+// A point of a light, uniform over its area or solid angle.
+template <Features S, class F>
+LightPoint<F> chain_light_point(const SceneTables& scene, const Int<F>& light, const F& u, const F& v, const Mask<F>& active) {
+    const LightRecord* lights = scene.lights.lights;
+    const Int<F> flags = gather_field(lights, &LightRecord::flags, light);
+    LightPoint<F> p = begin_light_point<F>(lights, flags, {light, F(1.f), F(0.f)}, active);
+    sample_triangle_light<S, F>(scene, flags, u, v, p);
+    sample_sun<S, F>(scene, u, v, p);
+    if constexpr (S.has(Feature::sphere_lights)) {
+        const Mask<F> sphere = has_kind(p, LightKind::sphere);
+        if (any(sphere)) {
+            const F radius = gather_field(lights, &LightRecord::radius, light);
+            const Vec<F> normal = sample_cone(F(2.f), u, v);
+            p.normal = select<F>(sphere, normal, p.normal);
+            p.position = select<F>(sphere, p.position + normal * radius, p.position);
+            p.density = select(sphere, F(0.25f * inv_pi) / (radius * radius), p.density);
+        }
+    }
+    return p;
+}
+
+// The size of a light as its points are sampled: metres; at infinity radians.
+template <class F> F chain_light_size(const SceneTables& scene, const LightPoint<F>& p) {
+    const LightRecord* lights = scene.lights.lights;
+    const F height = gather_field(lights, &LightRecord::cone_height, p.light), radius = gather_field(lights, &LightRecord::radius, p.light);
+    const Mask<F> sphere = as_mask(p.kind == int32_t(LightKind::sphere));
+    return select(p.infinite, sqrt(2.f * height), select(sphere, radius, 1.f / sqrt(max(p.density, F(1e-30f)))));
+}
+
+// The seeds of a region for a group of lights; the count is 0 if it has none.
+template <class F> void find_segment(const ManifoldTables& t, const Int<F>& region, const Int<F>& group, const Mask<F>& active,
+                                     Int<F>& first_seed, Int<F>& seeds) {
+    const Int<F> first = gather_field(t.regions, &ManifoldRegion::first_segment, region),
+                 segments = gather_field(t.regions, &ManifoldRegion::segments, region);
+    for (int i = 0; any(active && as_mask(segments > i)); ++i) {
+        const Int<F> at = first + min(Int<F>(i), Int<F>(segments - 1));
+        const Mask<F> it = as_mask(gather_field(t.segments, &ManifoldSegment::group, at) == group);
+        first_seed = select(it, gather_field(t.segments, &ManifoldSegment::first, at), first_seed);
+        seeds = select(it, gather_field(t.segments, &ManifoldSegment::count, at), seeds);
+    }
+}
+// Probability that a receiver selects a group; `seeds`: of its region for the group.
+template <class F> F group_probability(const ManifoldTables& t, const Int<F>& region, const Int<F>& group, const Int<F>& seeds) {
+    const F of_own = to_float(seeds) / to_float(gather_field(t.regions, &ManifoldRegion::count, region));
+    return (1.f - global_share) * of_own + global_share * gather_field(t.groups, &ManifoldGroup::share, group);
+}
+
+// Where receivers find seeds for a group of lights, and the probability with which they select it.
+template <class F> struct GroupSeeds {
+    Int<F> first, count;
+    F probability;
+};
+template <class F> GroupSeeds<F> seeds_of_group(const ManifoldTables& t, const Int<F>& region, const Int<F>& group, const Mask<F>& active) {
+    GroupSeeds<F> s{Int<F>(0), Int<F>(0), F(0.f)};
+    find_segment<F>(t, region, group, active, s.first, s.count);
+    s.probability = group_probability<F>(t, region, group, s.count);
+    return s;
+}
+template <class F> Int<F> region_at(const ManifoldTables& t, const Vec<F>& origin, const Vec<F>& ns, const Mask<F>& active) {
+    return gather(t.regions_of_cell, select(active, guiding_cell<F>(t.grid, origin, ns), Int<F>(0)));
+}
+
+// A receiver and its point of a light.
+template <class F> struct ChainReceiver {
+    Vec<F> origin, ns, ng, reflected;
+    LightPoint<F> light;
+    Int<F> slot;
+    GroupSeeds<F> seeds;
+    F density; // of the point
+    UInt<F> random;
+    F light_ratio;
+};
+// Queues the receivers of `lanes`.
+template <class F>
+void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainReceiver<F>& receiver, const Mask<F>& queued) {
+    const LightPoint<F>& p = receiver.light;
+    const Vec<F> to = p.position - receiver.origin;
+    const F rounding = select(p.infinite, F(2e-6f), sqrt(dot(to, to)) * 2e-6f);
+    const F tolerance = max(F(chain_light_size<F>(scene, p) * converged_share), rounding);
+    const unsigned lanes = bits(queued);
+    const int k = c.size;
+    const auto put_all = [&](Columns3& column, const Vec<F>& vector) {
+        compress(column.x + k, vector.x, lanes);
+        compress(column.y + k, vector.y, lanes);
+        compress(column.z + k, vector.z, lanes);
+    };
+    put_all(c.origin, receiver.origin);
+    put_all(c.ns, receiver.ns);
+    put_all(c.ng, receiver.ng);
+    put_all(c.reflected, receiver.reflected);
+    put_all(c.emission, p.emission);
+    compress(c.density + k, receiver.density, lanes);
+    compress(c.clearcoat + k, p.clearcoat, lanes);
+    put_all(c.target, p.position);
+    put_all(c.target_normal, p.normal);
+    compress(c.tolerance + k, tolerance, lanes);
+    compress(c.slot + k, receiver.slot, lanes);
+    compress(c.light + k, p.light, lanes);
+    compress(c.kind + k,
+             select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) | select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)), lanes);
+    compress(c.first_seed + k, receiver.seeds.first, lanes);
+    compress(c.seeds + k, receiver.seeds.count, lanes);
+    compress(c.random + k, receiver.random, lanes);
+    if (c.measures) compress(c.light_ratio + k, receiver.light_ratio, lanes);
+    c.size += count(queued);
+}
+
+// Queues the diffuse vertices of these paths, each with a point of a light.
+template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receivers(const KernelContext& context, TileScratch& scratch,
+                                                                                  const Path<F>& path, const Step<F>& step, int bounce,
+                                                                                  const Mask<F>& active) {
+    const ReuseVertex<F>& v = step.reuse_vertex;
+    const Mask<F> lambertian = active && v.lambertian && max_component(v.reflectance) > F(0.f);
+    if (bounce + 1 >= context.settings.max_bounces || !starts_chains<S>(*context.scene, bounce) || !any(lambertian)) return;
+    const SceneTables& scene = *context.scene;
+    const ManifoldTables& t = scene.manifolds;
+    ManifoldColumns& c = *scratch.manifolds;
+
+    UInt<F> random = pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x68e31da4u))));
+    const Vec<F> origin = offset_origin(v.position, v.ng * v.clearance);
+    const Int<F> own = region_at<F>(t, origin, v.ns, lambertian);
+    // The group of lights.
+    const Int<F> region = select(next_random<F>(random) < F(global_share), Int<F>(0), own);
+    const auto pick = [](const F& u, const Int<F>& n) { return min(to_int(F(u * to_float(n))), Int<F>(n - 1)); };
+    const Int<F> seed = gather_field(t.regions, &ManifoldRegion::first, region) +
+                        pick(next_random<F>(random), gather_field(t.regions, &ManifoldRegion::count, region));
+    const Int<F> group = gather_field(t.segments, &ManifoldSegment::group, gather_field(t.seeds, &ManifoldSeed::segment, seed));
+    const GroupSeeds<F> seeds = seeds_of_group<F>(t, own, group, lambertian);
+
+    // The point of the light.
+    const Int<F> lights = gather_field(t.groups, &ManifoldGroup::lights, group);
+    const Int<F> light = gather_field(t.groups, &ManifoldGroup::first_light, group) + pick(next_random<F>(random), lights);
+    const Pair<F> place = Sampler<F>{path.key ^ 0x5ca1ab1eu, path.index}.pair(uint32_t(bounce));
+    const LightPoint<F> p = chain_light_point<S, F>(scene, select(lambertian, light, Int<F>(0)), place.x(), place.y(), lambertian);
+    const F density = seeds.probability * p.density / to_float(lights);
+    const Mask<F> queued = lambertian && p.valid && density > F(0.f);
+    if (!any(queued)) return;
+    append_receivers<F>(
+        scene, c,
+        {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * inv_pi, p, path.slot, seeds, density, random, path.light_ratio},
+        queued);
+}
+
+} // namespace blush::inline BLUSH_ISA

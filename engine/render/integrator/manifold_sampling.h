@@ -1,0 +1,327 @@
+// Manifold sampling: connects diffuse surfaces to points of lights through chains of mirrors and smooth glass (Zeltner, Georgiev and
+// Jakob 2020, "Specular Manifold Sampling for Rendering High-Frequency Caustics and Glints", there the unbiased variant). So caustics are
+// found that neither NEE nor light paths can connect: those on the bottom of a pool that is seen through its water.
+//
+// For a diffuse point and a point of a light, Newton's method looks for a direction whose chain of specular events leads to the light
+// (Hanika, Droske and Fascione 2015, "Manifold Next Event Estimation"). Here the unknown is the direction, two numbers however long the
+// chain is: the chain is traced together with its derivatives by them (specular_chain.h). A solution of determinant |d target / d
+// direction| J carries f cos T L / (p J). The probability to find it from a random seed is unknown, but the number of further seeds until
+// it is found again is an unbiased estimate of its inverse (Booth 2007, "Unbiased Monte Carlo Estimation of the Reciprocal of an
+// Integral").
+//
+// Paths that meet such a light by chance share it (manifold_hits.h); light paths skip it.
+#pragma once
+
+#include "render/integrator/manifold_walk.h"
+#include "render/integrator/path_queues.h"
+
+namespace blush::inline BLUSH_ISA {
+
+constexpr int max_walk_iterations = 20;
+constexpr float least_scale = 1.f / 16; // of a Newton step
+
+// For the pilot: density with which paths of the camera and light paths together sample the direction of a solution; the probabilities of
+// the chain's events are left out, which are near 1 or weight little light.
+template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
+                                                                   const F& cosine, const Mask<F>& active) {
+    const GuideTables& guides = scene.manifolds.guides_without;
+    const auto guide = direction_guide_at<F>(guides, load3<F>(c.origin, w.index), load3<F>(c.ns, w.index), active);
+    const F density = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
+    if (scene.emission.empty()) return density;
+    const auto point = emission_point<S, F>(scene, gather(c.light, w.index), load3<F>(c.target, w.index),
+                                            load3<F>(c.target_normal, w.index), w.ray.direction, active);
+    // Light paths leave the receiver, which is Lambertian, with the density 1 / pi (light_path_weights.h).
+    const F by_light = gather(c.light_ratio, w.index) * emission_density<F>(scene.emission, point, active) * (inv_pi * max(cosine, F(0.f)));
+    return density + min(by_light, F(1e30f));
+}
+
+// Adds the light of a solution to its path.
+inline void add_chain_light(TileScratch& scratch, ManifoldColumns& c, int k, int trials) {
+    const int slot = c.slot[k];
+    if (c.measures) {
+        const float light = luminance(Vec3{c.found.x[k], c.found.y[k], c.found.z[k]}) * float(trials);
+        c.base_moment[slot] += light * c.base[k];
+        c.own_moment[slot] += light * light;
+        ++c.solutions;
+    }
+    scratch.r[slot] += double(c.found.x[k]) * trials;
+    scratch.g[slot] += double(c.found.y[k]) * trials;
+    scratch.b[slot] += double(c.found.z[k]) * trials;
+}
+
+// The same where trials have ended without finding the solution again.
+template <class F> void add_ended_light(TileScratch& scratch, ManifoldColumns& c, const Walk<F>& w, const Mask<F>& ended) {
+    const Mask<F> hit = as_mask((gather(c.kind, w.index) & int32_t(receiver_hit)) != 0);
+    const Int<F> times = select(hit, Int<F>(1), w.trials);
+    for_each_lane(bits(ended), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), lane(times, k)); });
+}
+
+// What becomes of walks in one round.
+template <class F> struct WalkRound {
+    Mask<F> active;
+    Mask<F> alive;        // goes on
+    Mask<F> begins;       // with a new seed
+    Mask<F> missed;       // of these: a trial has failed
+    Mask<F> ends, failed; // the chain is complete; it cannot be continued
+};
+
+// Solutions carry light if nothing is between the last surface and the light.
+template <class F> void take_arrivals(const ManifoldColumns& c, const Hit<F>& hit, Walk<F>& w, WalkRound<F>& round) {
+    const Mask<F> arriving = round.active && as_mask(w.state == int32_t(arrives));
+    if (!any(arriving)) return;
+    const Mask<F> infinite = as_mask((gather(c.kind, w.index) & int32_t(receiver_infinite)) != 0);
+    const F distance = dot(load3<F>(c.target, w.index) - w.ray.position, w.ray.direction);
+    const Mask<F> beyond = !infinite && hit.t >= distance * (1.f - 1e-4f) - 4.f * gather(c.tolerance, w.index);
+    const Mask<F> lit = arriving && (beyond || as_mask(hit.geometry < 0));
+    w.trials = select(lit, Int<F>(1), w.trials);
+    round.alive = round.alive && (!arriving || lit);
+    round.begins = round.begins || lit;
+}
+
+// The lanes of `taken` pass the event; the chain of exploring ones grows by it.
+template <class F>
+void pass_event(const DifferentialRay<F>& behind, const SpecularEvent<F>& event, const Mask<F>& taken, const Mask<F>& explore, Walk<F>& w) {
+    const auto set = [&](Vec<F>& a, const Vec<F>& b) { a = select<F>(taken, b, a); };
+    set(w.ray.position, behind.position);
+    set(w.ray.direction, behind.direction);
+    set(w.ray.position_u, behind.position_u);
+    set(w.ray.position_v, behind.position_v);
+    set(w.ray.direction_u, behind.direction_u);
+    set(w.ray.direction_v, behind.direction_v);
+    set(w.transmittance, w.transmittance * event.transmittance);
+    Int<F> place = Int<F>(1);
+    for (int i = 0; i < max_chain_events; ++i) place = select(as_mask(w.events > i), Int<F>(place << 1), place);
+    w.chain = select(taken && explore && event.refracts, Int<F>(w.chain | place), w.chain);
+    w.events = select(taken, Int<F>(w.events + 1), w.events);
+}
+
+// The events at the hits of walks that trace their chain.
+template <Features S, class F>
+void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>& hit, Walk<F>& w, WalkRound<F>& round) {
+    const Mask<F> chained = round.active && !as_mask(w.state == int32_t(arrives));
+    const Mask<F> explore = chained && as_mask(w.state == int32_t(explores));
+    const Mask<F> met = chained && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
+    if (!any(chained)) return;
+    const Int<F> events_in_chain = w.chain >> chain_count_shift;
+    Mask<F> passed = Mask<F>(false);
+    if (any(met)) {
+        Int<F> bit = w.chain; // shifted by the events so far
+        for (int i = 0; i < max_chain_events; ++i) bit = select(as_mask(w.events > i), Int<F>(bit >> 1), bit);
+        UInt<F> random = gather(c.random, w.index);
+        const F u = next_random<F>(random);
+        for_each_lane(bits(explore && met), [&](int k) { c.random[lane(w.index, k)] = lane(random, k); });
+        DifferentialRay<F> behind = w.ray;
+        const auto event = specular_event<S, F>(*context.scene, context.settings, hit, as_mask((bit & 1) != 0), explore, u, met, behind);
+        passed = met && event.valid;
+        pass_event<F>(behind, event, passed, explore, w);
+    }
+    // The chain of an exploring walk ends before the first surface without an event.
+    const Mask<F> explored = explore && !passed, empty = as_mask(w.events == 0);
+    round.failed = (chained && !explore && !passed) || (explored && empty) || (explore && as_mask(w.events > max_chain_events));
+    round.ends = (explored && !empty && !round.failed) || (passed && !explore && as_mask(w.events == events_in_chain));
+    w.chain = select(explored, Int<F>(w.chain | (w.events << chain_count_shift)), w.chain);
+    w.state = select(explored && !round.failed, Int<F>(solves), w.state);
+}
+
+template <class F> F cos_at_light(const ManifoldColumns& c, const Walk<F>& w) {
+    const Int<F> kind = gather(c.kind, w.index);
+    const Mask<F> infinite = as_mask((kind & int32_t(receiver_infinite)) != 0),
+                  two_sided = as_mask((kind & int32_t(receiver_two_sided)) != 0);
+    const F cosine = -dot(load3<F>(c.target_normal, w.index), w.ray.direction);
+    return select(infinite, F(1.f), select(two_sided, abs(cosine), max(cosine, F(0.f))));
+}
+
+// Hits of paths whose chain has been traced: they get all their light, none, or trials decide.
+template <Features S, class F>
+void weigh_hits(const KernelContext& context, TileScratch& scratch, const Mask<F>& retraced, Walk<F>& w, WalkRound<F>& round) {
+    ManifoldColumns& c = *scratch.manifolds;
+    const ChainEnd<F> end = end_of_chain<F>(c, w);
+    const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f));
+    const F density = gather(c.density, w.index) * end.determinant / max(cos_at_light<F>(c, w), F(1e-20f));
+    const F by_paths = cosine_hemisphere_pdf(cosine);
+    const HitShare<F> share = share_of_hits<F>(by_paths, density);
+    const unsigned lanes = bits(retraced);
+    if (c.measures) {
+        const F without = density_without<S, F>(*context.scene, c, w, cosine, retraced);
+        put<F>(c.base, w.index, luminance(load3<F>(c.found, w.index)) * by_paths / max(without, F(1e-20f)), lanes);
+    }
+    put<F>(c.same, w.index, end.same, lanes);
+    put<F>(c.coin, w.index, share.coin, lanes);
+    UInt<F> random = gather(c.random, w.index);
+    const F u = next_random<F>(random);
+    for_each_lane(lanes, [&](int k) { c.random[lane(w.index, k)] = lane(random, k); });
+    // Chains of paths that cannot be traced again have no solution.
+    const Mask<F> all = retraced && (!round.ends || !end.valid || u >= share.kept), tried = retraced && !all && share.coin > F(0.f);
+    for_each_lane(bits(all), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), 1); });
+    w.trials = select(tried, Int<F>(1), w.trials);
+    round.alive = round.alive && (!retraced || tried);
+    round.begins = round.begins || tried;
+}
+
+// Keeps the solutions of the lanes of `solved` that carry light; the others end.
+template <Features S, class F> void keep_solutions(const KernelContext& context, ManifoldColumns& c, const ChainEnd<F>& end, int bounce,
+                                                   const Mask<F>& solved, Walk<F>& w, WalkRound<F>& round) {
+    const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f)), facing = cos_at_light<F>(c, w);
+    const F pdf = gather(c.density, w.index) * end.determinant / max(facing, F(1e-20f)); // of the direction
+    const F by_paths = cosine_hemisphere_pdf(cosine);
+    const HitShare<F> share = share_of_hits<F>(by_paths, pdf);
+    Vec<F> found = load3<F>(c.reflected, w.index) * load3<F>(c.emission, w.index) * w.transmittance * (cosine / pdf);
+    found = select<F>(facing > F(0.f), found, splat<F>(0.f));
+    if constexpr (S.has(Feature::clearcoat)) found = found * through_clearcoat(gather(c.clearcoat, w.index), facing);
+    if constexpr (S.has(Feature::light_profiles))
+        found = found * emission_profile<F>(*context.scene, gather(c.light, w.index), -w.ray.direction, solved);
+    const Mask<F> short_enough = as_mask((w.events + bounce) < context.settings.max_bounces);
+    const Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && short_enough;
+    const unsigned lanes = bits(carries);
+    put3<F>(c.root, w.index, w.direction, lanes);
+    put3<F>(c.found, w.index, found * share.kept, lanes);
+    put<F>(c.same, w.index, end.same, lanes);
+    put<F>(c.coin, w.index, share.coin, lanes);
+    put_int<F>(c.root_chain, w.index, w.chain, lanes);
+    if (c.measures) {
+        const F density = density_without<S, F>(*context.scene, c, w, cosine, carries);
+        put<F>(c.base, w.index, luminance(found) * pdf / max(density, F(1e-20f)), lanes);
+    }
+    w.state = select(carries, Int<F>(arrives), w.state);
+    round.alive = round.alive && (!solved || carries);
+}
+
+// Walks that have converged: the first of a receiver has a solution, later ones have found it again or not.
+template <Features S, class F> void converge(const KernelContext& context, TileScratch& scratch, const ChainEnd<F>& end, int bounce,
+                                             const Mask<F>& converged, Walk<F>& w, WalkRound<F>& round) {
+    ManifoldColumns& c = *scratch.manifolds;
+    const Mask<F> again = converged && as_mask(w.trials > 0), solved = converged && !again;
+    const Vec<F> off = w.direction - load3<F>(c.root, w.index);
+    const Mask<F> same = again && as_mask(w.chain == gather(c.root_chain, w.index)) && dot(off, off) <= gather(c.same, w.index);
+    // The light of a hit is that of manifold sampling then.
+    const Mask<F> solution = same && as_mask((gather(c.kind, w.index) & int32_t(receiver_hit)) == 0);
+    for_each_lane(bits(solution), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), lane(w.trials, k)); });
+    round.alive = round.alive && !same;
+    round.missed = round.missed || (again && !same);
+    if (any(solved)) keep_solutions<S, F>(context, c, end, bounce, solved, w, round);
+}
+
+// Newton's method where chains have ended or failed: takes the next step, or half of the last one if it has led away.
+template <Features S, class F>
+void take_steps(const KernelContext& context, TileScratch& scratch, int bounce, Walk<F>& w, WalkRound<F>& round) {
+    const Mask<F> retraced = (round.ends || round.failed) && as_mask(w.state == int32_t(retraces));
+    if (any(retraced)) weigh_hits<S, F>(context, scratch, retraced, w, round);
+    const Mask<F> traced = (round.ends || round.failed) && !retraced;
+    if (!any(traced)) return;
+    ManifoldColumns& c = *scratch.manifolds;
+    const ChainEnd<F> end = end_of_chain<F>(c, w);
+    const unsigned lanes = bits(traced);
+    const Int<F> iterations = gather(c.iterations, w.index) + 1;
+    const F best_error = gather(c.best_error, w.index), tolerance = gather(c.tolerance, w.index);
+    const Mask<F> first = as_mask(iterations == 1);
+    const Mask<F> better = traced && round.ends && end.valid && (first || end.error < best_error);
+    const Vec<F> best = select<F>(better, w.direction, load3<F>(c.best, w.index));
+    const F step_u = select(better, end.step_u, gather(c.step_u, w.index)), step_v = select(better, end.step_v, gather(c.step_v, w.index));
+    const F scale = select(better, F(1.f), gather(c.scale, w.index) * 0.5f);
+    put_int<F>(c.iterations, w.index, iterations, lanes);
+    put3<F>(c.best, w.index, best, lanes);
+    put<F>(c.best_error, w.index, select(better, end.error, best_error), lanes);
+    put<F>(c.step_u, w.index, step_u, lanes);
+    put<F>(c.step_v, w.index, step_v, lanes);
+    put<F>(c.scale, w.index, scale, lanes);
+
+    const Mask<F> converged = better && end.error <= tolerance;
+    const Mask<F> fails =
+        traced && !converged && ((!better && (first || scale < F(least_scale))) || as_mask(iterations >= max_walk_iterations));
+    if (any(converged)) converge<S, F>(context, scratch, end, bounce, converged, w, round);
+    // Without a solution the receiver gets no light from this point; a failed trial is followed by the next.
+    const Mask<F> tries = fails && as_mask(w.trials > 0);
+    round.alive = round.alive && (!fails || tries);
+    round.missed = round.missed || tries;
+    const Mask<F> steps = traced && !converged && !fails;
+    w.direction = select<F>(steps, stepped<F>(best, step_u, step_v, scale), w.direction);
+    begin_chain<F>(c, w, steps);
+}
+
+// Advances walks by the hits of their rays. Returns the lanes that go on.
+template <Features S, class F> [[gnu::noinline, gnu::flatten]] Mask<F> advance_walks(const KernelContext& context, TileScratch& scratch,
+                                                                                     const Int<F>& index, const Hit<F>& hit, int bounce,
+                                                                                     const Mask<F>& active) {
+    ManifoldColumns& c = *scratch.manifolds;
+    Walk<F> w = load_walk<F>(c, index);
+    WalkRound<F> round{active, active, Mask<F>(false), Mask<F>(false), Mask<F>(false), Mask<F>(false)};
+    const Mask<F> arrived = as_mask(w.state == int32_t(arrives));
+    take_arrivals<F>(c, hit, w, round);
+    round.active = active && !arrived;
+    take_events<S, F>(context, c, hit, w, round);
+    take_steps<S, F>(context, scratch, bounce, w, round);
+    const Mask<F> begins = (round.begins || round.missed) && round.alive;
+    if (any(begins)) {
+        const Mask<F> ended = begin_walks<F>(*context.scene, c, w, begins, round.missed);
+        add_ended_light<F>(scratch, c, w, ended);
+        round.alive = round.alive && !ended;
+    }
+    const Mask<F> cut = round.alive && as_mask(w.trials >= max_trials(c));
+    if (any(cut)) {
+        c.cut += count(cut);
+        if (!c.measures) scratch.truncated_paths += count(cut);
+        add_ended_light<F>(scratch, c, w, cut);
+    }
+    const Mask<F> alive = round.alive && !cut;
+    store_walk<F>(c, w, bits(alive));
+    return alive;
+}
+
+// Advances the walks of `live` receivers, which ManifoldColumns::live lists, until all have ended. Overwrites `rays`.
+template <Features S, class F> void run_walks(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce, int live) {
+    ManifoldColumns& c = *scratch.manifolds;
+    while (live > 0) {
+        for (int k = 0; k < live; k += width<F>) {
+            const Int<F> index = select(as_mask(iota<F>() + k < live), load<Int<F>>(c.live + k), Int<F>(0));
+            const Vec<F> origin = load3<F>(c.position, index), direction = load3<F>(c.ray, index);
+            store(rays.ox + k, origin.x);
+            store(rays.oy + k, origin.y);
+            store(rays.oz + k, origin.z);
+            store(rays.dx + k, direction.x);
+            store(rays.dy + k, direction.y);
+            store(rays.dz + k, direction.z);
+        }
+        scratch.bounce_rays += live;
+        HitColumns& h = scratch.hits;
+        trace_closest<F>(*context.accel, {rays.ox, rays.oy, rays.oz, rays.dx, rays.dy, rays.dz, nullptr, nullptr, other_ray_mask}, live,
+                         false, HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        int kept = 0;
+        for (int k = 0; k < live; k += width<F>) {
+            const Mask<F> active = as_mask(iota<F>() + k < live);
+            const Int<F> index = select(active, load<Int<F>>(c.live + k), Int<F>(0));
+            const Mask<F> alive = advance_walks<S, F>(context, scratch, index, load_hit<F>(h, k), bounce, active);
+            compress(c.live + kept, index, bits(alive));
+            kept += count(alive);
+        }
+        live = kept;
+    }
+}
+
+// Adds the light of chains: that which reaches the queued receivers, then that of the hits. Overwrites `rays`.
+template <Features S, class F> void sample_manifolds(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
+    ManifoldColumns& c = *scratch.manifolds;
+    const auto run = [&](const auto& begin) {
+        for (int k = 0; k < c.size; k += width<F>) {
+            const Mask<F> active = as_mask(iota<F>() + k < c.size);
+            Walk<F> w = load_walk<F>(c, select(active, Int<F>(iota<F>() + k), Int<F>(0)));
+            w.trials = Int<F>(0);
+            begin(w, active);
+            store_walk<F>(c, w, bits(active));
+            store(c.live + k, w.index);
+        }
+        run_walks<S, F>(context, scratch, rays, bounce, c.size);
+        c.size = 0;
+    };
+    run([&](Walk<F>& w, const Mask<F>& active) { begin_walks<F>(*context.scene, c, w, active, Mask<F>(false)); });
+    if (c.hits.size == 0) return;
+    add_hit_receivers<S, F>(*context.scene, c);
+    c.hits.size = 0;
+    run([&](Walk<F>& w, const Mask<F>& active) {
+        w.direction = load3<F>(c.root, w.index);
+        w.chain = gather(c.root_chain, w.index);
+        w.state = Int<F>(retraces);
+        begin_chain<F>(c, w, active);
+    });
+}
+
+} // namespace blush::inline BLUSH_ISA

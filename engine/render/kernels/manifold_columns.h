@@ -1,0 +1,72 @@
+// The walks of manifold sampling in a tile (render/integrator/manifold_sampling.h).
+#pragma once
+
+#include "render/kernels/column.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace blush {
+
+struct Columns3 {
+    Column<float> x, y, z;
+};
+
+// Paths of the camera that find the same light by chance (render/integrator/manifold_hits.h).
+struct ManifoldHitColumns {
+    // By slot: the last diffuse vertex, the direction in which the path has left it, and Path::light_ratio there.
+    Columns3 origin, ns, direction;
+    Column<float> start_ratio;
+    // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
+    int size = 0;
+    Column<int32_t> slot, light, chain;
+    Column<uint32_t> random;
+    Columns3 target, emitted;
+};
+
+// By receiver: one diffuse vertex of a path, with a point of a light.
+struct ManifoldColumns {
+    int size = 0;
+    // The receiver: origin of its rays, normals, throughput times reflectance over pi.
+    Columns3 origin, ns, ng, reflected;
+    Column<int32_t> slot;
+    // The light: point (at infinity: direction), normal, radiance, density with which the point is sampled (1/m^2; at infinity 1/sr),
+    // record; distance from the point below which a walk has converged.
+    Columns3 target, target_normal, emission;
+    Column<float> density, tolerance, clearcoat; // clearcoat: share of the light under a clear coat
+    Column<int32_t> light, kind;                 // kind: ReceiverFlag
+    ManifoldHitColumns hits;
+    // Seeds: region's segment for the light's group; the count is 0 if there is none. The group's segment of region 0.
+    Column<int32_t> first_seed, seeds;
+    Column<uint32_t> random;
+
+    // The walk: its direction, and the best so far with its distance from the target and its Newton step, of which `scale` is taken.
+    Columns3 direction, best;
+    Column<float> best_error, step_u, step_v, scale;
+    Column<int32_t> chain, iterations, state; // state: WalkState
+
+    // The chain that is traced for the direction: events so far, the ray, its derivatives by two turns of the direction, transmittance.
+    Column<int32_t> events, events_so_far;
+    Columns3 position, ray, position_u, position_v, ray_u, ray_v, transmittance;
+
+    // The solution: direction, squared distance within which another is the same, light that it carries, trials to find it again.
+    Columns3 root, found;
+    Column<float> same, coin; // coin: HitShare::coin
+    Column<int32_t> root_chain, trials;
+
+    Column<int32_t> live;
+
+    // For the pilot. Accumulated by slot: second moment of the light that was found, and of the same light if paths of the camera found it;
+    // the latter over the luminance found, by receiver.
+    bool measures = false;
+    Column<float> own_moment, base_moment, base, light_ratio; // light_ratio: of the path that ends at the receiver
+    int64_t solutions = 0, cut = 0;                           // accumulated; cut: given up after too many trials
+
+    void begin_measuring(int slots) {
+        measures = true;
+        std::fill_n(own_moment.data, slots, 0.f);
+        std::fill_n(base_moment.data, slots, 0.f);
+    }
+};
+
+} // namespace blush

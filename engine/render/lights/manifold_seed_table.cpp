@@ -1,0 +1,170 @@
+#include "render/lights/manifold_seed_table.h"
+
+#include "render/lights/receiver_grid.h"
+#include "shading/path_guiding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace blush {
+namespace {
+
+constexpr size_t seeds_of_region = 128, seeds_of_scene = 256;
+constexpr size_t photons_of_region = 64;                   // else a larger one is taken
+constexpr std::array<int32_t, 4> block_sides{1, 2, 4, 8};  // of a region, in cells
+constexpr float margin = 0.25f;                            // of a block's side: photons so near to it count, too
+constexpr std::array<int, 4> grid_sides{192, 128, 96, 64}; // cells along the longest side: the first with
+constexpr double max_grid_cells = 64.0 * 64 * 64;          // no more than so many in all
+
+bool is_usable(const ChainPhoton& p) {
+    return is_finite_position(p.position) && is_finite_position(p.target) && std::isfinite(p.flux) && p.flux > 0 &&
+           dot(p.normal, p.normal) > 0;
+}
+
+ReceiverGrid grid_of(const std::vector<Vec3>& positions) {
+    ReceiverGrid grid;
+    for (const int side : grid_sides) {
+        grid = make_receiver_grid(positions, side);
+        if (double(grid.cells[0]) * double(grid.cells[1]) * double(grid.cells[2]) <= max_grid_cells) break;
+    }
+    return grid;
+}
+
+// A ray that meets two suns at once would end two chains (integrator/manifold_hits.h).
+bool overlaps_another_sun(const LightTables& lights, const LightRecord& sun) {
+    const auto chord = [](const LightRecord& r) { return std::sqrt(2 * r.cone_height); };
+    for (int i = 0; i < lights.sun_count; ++i) {
+        const LightRecord& other = lights.lights[lights.suns[i]];
+        if (&other != &sun && length(other.position - sun.position) <= chord(other) + chord(sun) + 1e-6f) return true;
+    }
+    return false;
+}
+
+// Lights that rays can hit and whose points can be sampled evenly. Not those of surfaces that have specular events themselves: a chain
+// would not know where it ends.
+bool ends_chains(const SceneTables& scene, const LightRecord& light) {
+    switch (LightKind(light.kind)) {
+    case LightKind::triangle: return !(scene.materials.materials[scene.parts[light.part].material].flags & material_chains);
+    case LightKind::sphere: return true;
+    case LightKind::sun: return light.cone_height > 0 && !overlaps_another_sun(scene.lights, light);
+    default: return false;
+    }
+}
+
+} // namespace
+
+ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene) {
+    const LightTables& lights = scene.lights;
+    // Groups, of lights that some photon comes from.
+    group_of_light_.assign(size_t(lights.count), -1);
+    std::map<std::pair<int32_t, int32_t>, int32_t> group_of_part;
+    std::vector<const ChainPhoton*> usable;
+    std::vector<Vec3> positions;
+    const auto key_of = [&](int32_t light) {
+        const LightRecord& r = lights.lights[light];
+        return LightKind(r.kind) == LightKind::triangle ? std::pair(0, r.part) : std::pair(1, light);
+    };
+    for (const ChainPhoton& p : photons) {
+        if (!is_usable(p) || p.light < 0 || p.light >= lights.count || !ends_chains(scene, lights.lights[p.light])) continue;
+        usable.push_back(&p);
+        positions.push_back(p.position);
+        group_of_part.emplace(key_of(p.light), 0);
+    }
+    if (usable.empty()) return;
+    for (auto& [key, group] : group_of_part) {
+        group = int32_t(groups_.size());
+        groups_.push_back({-1, 0, 0});
+    }
+    for (int32_t light = 0; light < lights.count; ++light) {
+        if (!ends_chains(scene, lights.lights[light])) continue;
+        const auto found = group_of_part.find(key_of(light));
+        if (found == group_of_part.end()) continue;
+        ManifoldGroup& group = groups_[size_t(found->second)];
+        if (group.lights == 0) group.first_light = light;
+        if (light != group.first_light + group.lights) continue; // not consecutive
+        ++group.lights;
+        group_of_light_[size_t(light)] = found->second;
+    }
+
+    grid_ = grid_of(positions);
+    const auto cells = size_t(grid_.count()) * guiding_sides;
+    regions_of_cell_.assign(cells, 0);
+    std::erase_if(usable, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)] < 0; });
+    std::ranges::stable_sort(usable, {}, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)]; });
+    add_region(usable, seeds_of_scene);
+    for (const ManifoldSegment& s : segments_) groups_[size_t(s.group)].share = float(s.count) / float(regions_[0].count);
+    // Lights without a seed in region 0 are left to the other strategies.
+    for (int32_t& group : group_of_light_)
+        if (group >= 0 && !(groups_[size_t(group)].share > 0)) group = -1;
+    std::erase_if(usable, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)] < 0; });
+    if (grid_.cells_per_metre == 0) return;
+
+    for (size_t size = block_sides.size(); size-- > 0;) {
+        const CellBlocks blocks{grid_, block_sides[size]};
+        const auto block_of = [&](size_t cell) {
+            return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
+        };
+        std::vector<std::vector<const ChainPhoton*>> of_block(size_t(blocks.count()) * guiding_sides);
+        const float reach = margin * float(block_sides[size]) / grid_.cells_per_metre;
+        for (const ChainPhoton* p : usable) {
+            std::array<size_t, 8> blocks_near;
+            for (size_t k = 0; k < 8; ++k) {
+                const Vec3 corner{k & 1 ? reach : -reach, k & 2 ? reach : -reach, k & 4 ? reach : -reach};
+                blocks_near[k] = block_of(size_t(guiding_cell<float>(grid_, p->position + corner, p->normal)));
+            }
+            std::ranges::sort(blocks_near);
+            const auto end = std::unique(blocks_near.begin(), blocks_near.end());
+            for (auto b = blocks_near.begin(); b != end; ++b) of_block[*b].push_back(p);
+        }
+        std::vector<int32_t> region_of(of_block.size(), -1);
+        for (size_t b = 0; b < of_block.size(); ++b) {
+            if (of_block[b].size() < photons_of_region) continue;
+            region_of[b] = int32_t(regions_.size());
+            add_region(std::move(of_block[b]), seeds_of_region);
+        }
+        for (size_t cell = 0; cell < cells; ++cell)
+            if (const int32_t region = region_of[block_of(cell)]; region >= 0) regions_of_cell_[cell] = region;
+    }
+}
+
+// `photons`: sorted by group. So many of them become seeds, each in proportion to its flux (systematic resampling).
+void ManifoldSeedTable::add_region(std::vector<const ChainPhoton*> photons, size_t seeds) {
+    double flux = 0;
+    for (const ChainPhoton* p : photons) flux += double(p->flux);
+    const size_t count = std::min(seeds, photons.size());
+    ManifoldRegion region{int32_t(seeds_.size()), int32_t(count), int32_t(segments_.size()), 0};
+    double before = 0;
+    size_t next = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const double wanted = (double(k) + 0.5) * flux / double(count);
+        while (next + 1 < photons.size() && before + double(photons[next]->flux) < wanted) before += double(photons[next++]->flux);
+        const ChainPhoton& p = *photons[next];
+        const int32_t group = group_of_light_[size_t(p.light)];
+        if (region.segments == 0 || segments_.back().group != group) {
+            segments_.push_back({group, int32_t(seeds_.size()), 0});
+            ++region.segments;
+        }
+        ++segments_.back().count;
+        seeds_.push_back({p.position, p.target, p.chain, int32_t(segments_.size()) - 1});
+    }
+    regions_.push_back(region);
+}
+
+ManifoldTables ManifoldSeedTable::tables(const CausticCasterTables& casters) const {
+    if (empty()) return {};
+    return {regions_of_cell_.data(),
+            regions_.data(),
+            segments_.data(),
+            seeds_.data(),
+            groups_.data(),
+            group_of_light_.data(),
+            int32_t(group_of_light_.size()),
+            grid_,
+            casters,
+            {}};
+}
+
+} // namespace blush

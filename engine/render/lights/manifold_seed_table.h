@@ -1,0 +1,41 @@
+// Builds the seeds of manifold sampling from photons (shading/manifold_seeds.h).
+#pragma once
+
+#include "render/compile/scene_tables.h"
+#include "render/lights/guiding_trial.h"
+#include "shading/manifold_seeds.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace blush {
+
+// Of one image. Does not depend on the number of threads.
+class ManifoldSeedTable {
+public:
+    ManifoldSeedTable() = default;
+    // Reads the lights, parts and materials of the scene. Empty if no photon has arrived by specular surfaces alone.
+    ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene);
+
+    bool empty() const { return seeds_.empty(); }
+    // Valid as long as this object.
+    ManifoldTables tables(const CausticCasterTables& casters) const;
+    size_t memory_bytes() const {
+        return regions_of_cell_.capacity() * sizeof(int32_t) + seeds_.capacity() * sizeof(ManifoldSeed) +
+               regions_.capacity() * sizeof(ManifoldRegion) + segments_.capacity() * sizeof(ManifoldSegment);
+    }
+
+private:
+    void add_region(std::vector<const ChainPhoton*> photons, size_t seeds);
+
+    ReceiverGrid grid_;
+    std::vector<int32_t> regions_of_cell_, group_of_light_;
+    std::vector<ManifoldRegion> regions_;
+    std::vector<ManifoldSegment> segments_;
+    std::vector<ManifoldSeed> seeds_;
+    std::vector<ManifoldGroup> groups_;
+};
+
+} // namespace blush

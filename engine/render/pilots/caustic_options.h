@@ -1,0 +1,14 @@
+// Overrides of what pilots decide about caustics.
+#pragma once
+
+#include <optional>
+
+namespace blush {
+
+// Where they are possible; empty: a pilot decides. To measure their effect.
+struct CausticOptions {
+    std::optional<float> light_path_share; // light paths for each camera path
+    std::optional<bool> manifold_sampling;
+};
+
+} // namespace blush

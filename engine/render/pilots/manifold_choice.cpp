@@ -1,0 +1,43 @@
+#include "render/pilots/manifold_choice.h"
+
+#include "render/compile/render_scene.h"
+#include "render/pilots/caustic_limits.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace blush {
+
+ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<bool> used)
+    : useless_(why_no_caustics(settings, scene, film)), used_(used), casters_(scene.tables().guides.casters) {}
+
+void ManifoldChoice::decide(ManifoldPilot pilot) {
+    if (!useless_) pilot_ = std::move(pilot);
+}
+
+SceneTables ManifoldChoice::tables(SceneTables scene, int64_t sample) const {
+    if (sample == 0 || !pays()) return scene;
+    scene.manifolds = pilot_->seeds.tables(casters_);
+    scene.guides = {};
+    return scene;
+}
+
+FeatureUse ManifoldChoice::report() const {
+    FeatureUse use{.part = "kernel", .name = "manifold sampling", .used = pays(), .why = {}};
+    if (useless_)
+        use.why = useless_;
+    else if (!pilot_)
+        use.why = "a pilot decides after the first sample";
+    else if (!pilot_->figures)
+        use.why = "pilot: no light reaches the image by mirrors and smooth glass alone";
+    else if (pilot_->endless)
+        use.why = "pilot: some ways of light are found too rarely";
+    else
+        use.why = fmt::format("pilot: variance x work {} {:.2f} of that without, of a typical tile {:.2f}", use.used ? "is" : "would be",
+                              pilot_->figures->cost(), pilot_->figures->typical * pilot_->figures->work);
+    if (use.used) use.bytes = int64_t(pilot_->seeds.memory_bytes());
+    if (pilot_) use.pilot = pilot_->figures;
+    return use;
+}
+
+} // namespace blush
