@@ -21,7 +21,7 @@ struct MeasuredTile {
     int64_t solutions = 0, cut = 0;
 };
 
-// `base`, `own`: moments of light that walks and probes have found, by slot.
+// Of the tile without manifold sampling: with it, but for the light of its solutions, whose moments `columns` has by slot.
 VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns, int slots, const Vec3d& mean) {
     // The squared difference of the halves has half of a sample's variance for each channel, divided by a quarter of the samples.
     constexpr double per_sample = 2.0 / pilot_samples;

@@ -6,12 +6,8 @@
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
 #include "render/integrator/kernel_settings.h"
-#include "tests/render/pilots/pilot_checks.h"
-#include "tests/render/rendered_image.h"
-#include "tests/render/scenes.h"
-#include "tests/support/images.h"
+#include "tests/render/integrator/caustic_images.h"
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -32,13 +28,6 @@ Scene rough_balls() {
     scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
     return scene;
 }
-Light light_of(Light::Kind kind, float intensity, float radius = 0) {
-    Light light;
-    light.kind = kind;
-    light.intensity = intensity;
-    light.radius = radius;
-    return light;
-}
 // One for each kind of emission, and one with a point without size, which emits no light paths.
 std::vector<std::pair<const char*, Scene>> lit_scenes() {
     std::vector<std::pair<const char*, Scene>> scenes;
@@ -50,13 +39,13 @@ std::vector<std::pair<const char*, Scene>> lit_scenes() {
         place(s, ceiling_quad(0.5f, 2.5f), lamp);
         place(s, ceiling_quad(2, 4), lambert(0.8f));
     });
-    add("sphere", [](Scene& s) { place_light(s, light_of(Light::Kind::point, 20, 0.3f), at({0, 2, 0.5f})); });
+    add("sphere", [](Scene& s) { place_light(s, caustic_light(Light::Kind::point, 20, 0.3f), at({0, 2, 0.5f})); });
     add("point beside a sphere", [](Scene& s) {
-        place_light(s, light_of(Light::Kind::point, 10), at({-0.5f, 2, 0.5f}));
-        place_light(s, light_of(Light::Kind::point, 10, 0.2f), at({0.8f, 2, 0.5f}));
+        place_light(s, caustic_light(Light::Kind::point, 10), at({-0.5f, 2, 0.5f}));
+        place_light(s, caustic_light(Light::Kind::point, 10, 0.2f), at({0.8f, 2, 0.5f}));
     });
     add("sun", [](Scene& s) {
-        Light sun = light_of(Light::Kind::sun, 3);
+        Light sun = caustic_light(Light::Kind::sun, 3);
         sun.angle_radians = 0.3f;
         place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
     });
@@ -110,12 +99,12 @@ TEST(LightPathEmission, CarriesTheFluxOfTheLights) {
     place(both, ceiling_quad(0.5f, 2), sided);
     EXPECT_TRUE(z_test(emitted_flux(both), 2 * pi_ * 7));
     Scene bulbs = one_ball(); // candela: flux 4 pi I, whatever the radius; the second is in the caster's sphere
-    place_light(bulbs, light_of(Light::Kind::point, 5, 0.1f), at({0, 2, 0}));
-    place_light(bulbs, light_of(Light::Kind::point, 3, 0.05f), at({0.5f, 0.5f, 0}));
-    place_light(bulbs, light_of(Light::Kind::point, 2), at({-1, 1, 0})); // without size: none
+    place_light(bulbs, caustic_light(Light::Kind::point, 5, 0.1f), at({0, 2, 0}));
+    place_light(bulbs, caustic_light(Light::Kind::point, 3, 0.05f), at({0.5f, 0.5f, 0}));
+    place_light(bulbs, caustic_light(Light::Kind::point, 2), at({-1, 1, 0})); // without size: none
     EXPECT_TRUE(z_test(emitted_flux(bulbs), 4 * pi_ * 8));
     Scene sunny = one_ball();
-    Light sun = light_of(Light::Kind::sun, 3);
+    Light sun = caustic_light(Light::Kind::sun, 3);
     sun.angle_radians = 0.1f;
     place_light(sunny, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
     const double radius = double(Compiled(sunny).scene.bounding_sphere().radius);
@@ -124,27 +113,8 @@ TEST(LightPathEmission, CarriesTheFluxOfTheLights) {
     EXPECT_TRUE(z_test(emitted_flux(sunny), 3 / cosines * pi_ * radius * radius));
 }
 
-// Blocks of the image: means over independent images, as one light path adds to many pixels.
-std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, float share, int images, uint32_t first_seed) {
-    std::vector<std::array<Moments, 3>> moments;
-    for (int k = 0; k < images; ++k) {
-        settings.seed = first_seed + uint32_t(k);
-        Renderer renderer({.threads = 2, .caustics = {.light_path_share = share}});
-        renderer.update(scene, settings);
-        renderer.render(0, settings.spp);
-        const RenderedImage image = image_of(renderer);
-        EXPECT_EQ(feature_line(renderer, "light paths").used, share > 0);
-        const auto blocks = image.blocks(settings.width / 3, settings.height / 3);
-        moments.resize(blocks.size());
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            moments[i][0].add(blocks[i].mean.x);
-            moments[i][1].add(blocks[i].mean.y);
-            moments[i][2].add(blocks[i].mean.z);
-        }
-    }
-    std::vector<Measured> measured;
-    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
-    return measured;
+std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settings, float share, int images, uint32_t first_seed) {
+    return caustic_blocks(scene, settings, {.light_path_share = share}, "light paths", share > 0, images, first_seed);
 }
 
 TEST(LightPaths, AgreeWithTheOtherStrategies) {

@@ -3,17 +3,12 @@
 #include "render/film/film_state.h"
 #include "render/lights/manifold_seed_table.h"
 #include "render/pilots/guiding_pilot.h"
-#include "tests/render/pilots/pilot_checks.h"
-#include "tests/render/rendered_image.h"
-#include "tests/render/scenes.h"
-#include "tests/support/images.h"
+#include "tests/render/integrator/caustic_images.h"
 
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,13 +48,6 @@ Scene smooth_balls() {
     scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
     return scene;
 }
-Light light_of(Light::Kind kind, float intensity, float radius = 0) {
-    Light light;
-    light.kind = kind;
-    light.intensity = intensity;
-    light.radius = radius;
-    return light;
-}
 // Lights so large that paths find them by chance.
 std::vector<std::pair<const char*, Scene>> lit_scenes() {
     std::vector<std::pair<const char*, Scene>> scenes;
@@ -72,11 +60,11 @@ std::vector<std::pair<const char*, Scene>> lit_scenes() {
         place(s, ceiling_quad(2, 4), lambert(0.8f));
     });
     add("spheres of unequal power", [](Scene& s) {
-        place_light(s, light_of(Light::Kind::point, 20, 0.5f), at({0, 2.5f, 0.5f}));
-        place_light(s, light_of(Light::Kind::point, 3, 0.5f), at({-1.5f, 2, 0}));
+        place_light(s, caustic_light(Light::Kind::point, 20, 0.5f), at({0, 2.5f, 0.5f}));
+        place_light(s, caustic_light(Light::Kind::point, 3, 0.5f), at({-1.5f, 2, 0}));
     });
     add("sun", [](Scene& s) {
-        Light sun = light_of(Light::Kind::sun, 3);
+        Light sun = caustic_light(Light::Kind::sun, 3);
         sun.angle_radians = 0.6f;
         place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
     });
@@ -97,29 +85,11 @@ struct Strategies {
     float light_path_share;
     bool manifold_sampling;
 };
-// Blocks of the image: means over independent images.
-std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, const Strategies& strategies, int images,
+std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settings, const Strategies& strategies, int images,
                                 uint32_t first_seed) {
-    std::vector<std::array<Moments, 3>> moments;
-    for (int k = 0; k < images; ++k) {
-        settings.seed = first_seed + uint32_t(k);
-        Renderer renderer(
-            {.threads = 2,
-             .caustics = {.light_path_share = strategies.light_path_share, .manifold_sampling = strategies.manifold_sampling}});
-        renderer.update(scene, settings);
-        renderer.render(0, settings.spp);
-        EXPECT_EQ(feature_line(renderer, "manifold sampling").used, strategies.manifold_sampling);
-        const auto blocks = image_of(renderer).blocks(settings.width / 3, settings.height / 3);
-        moments.resize(blocks.size());
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            moments[i][0].add(blocks[i].mean.x);
-            moments[i][1].add(blocks[i].mean.y);
-            moments[i][2].add(blocks[i].mean.z);
-        }
-    }
-    std::vector<Measured> measured;
-    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
-    return measured;
+    return caustic_blocks(scene, settings,
+                          {.light_path_share = strategies.light_path_share, .manifold_sampling = strategies.manifold_sampling},
+                          "manifold sampling", strategies.manifold_sampling, images, first_seed);
 }
 
 TEST(ManifoldSampling, AgreesWithTheOtherStrategies) {
@@ -142,7 +112,7 @@ TEST(ManifoldSampling, FindsTheSunThroughASlab) {
         Transform slab = at({0, 1, 0});
         slab.scale = {20, 0.1f, 20};
         place(scene, cube(false), glass(0, ior), slab);
-        Light sun = light_of(Light::Kind::sun, 4);
+        Light sun = caustic_light(Light::Kind::sun, 4);
         sun.angle_radians = 0.0087f;
         const Vec3 direction = normalize(Vec3{0.6f, -0.8f, 0});
         place_light(scene, sun, aimed({0, 5, 0}, direction));

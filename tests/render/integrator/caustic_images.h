@@ -1,0 +1,50 @@
+// What the tests of the strategies for caustics share: lights, and means over images that are rendered with some of the strategies.
+#pragma once
+
+#include "tests/render/pilots/pilot_checks.h"
+#include "tests/render/rendered_image.h"
+#include "tests/render/scenes.h"
+#include "tests/support/images.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace blush::test {
+
+inline Light caustic_light(Light::Kind kind, float intensity, float radius = 0) {
+    Light light;
+    light.kind = kind;
+    light.intensity = intensity;
+    light.radius = radius;
+    return light;
+}
+
+// Blocks of the image: means over independent images, as one light path adds to many pixels. Expects the feature of this name to be used
+// or not.
+inline std::vector<Measured> caustic_blocks(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
+                                            std::string_view feature, bool used, int images, uint32_t first_seed) {
+    using statistics::Moments;
+    std::vector<std::array<Moments, 3>> moments;
+    for (int k = 0; k < images; ++k) {
+        settings.seed = first_seed + uint32_t(k);
+        Renderer renderer({.threads = 2, .caustics = strategies});
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        EXPECT_EQ(feature_line(renderer, feature).used, used);
+        const auto blocks = image_of(renderer).blocks(settings.width / 3, settings.height / 3);
+        moments.resize(blocks.size());
+        for (size_t i = 0; i < blocks.size(); ++i) {
+            moments[i][0].add(blocks[i].mean.x);
+            moments[i][1].add(blocks[i].mean.y);
+            moments[i][2].add(blocks[i].mean.z);
+        }
+    }
+    std::vector<Measured> measured;
+    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
+    return measured;
+}
+
+} // namespace blush::test
