@@ -27,6 +27,15 @@ std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
     return records;
 }
 
+// The features that pilots have switched on for this image, "Pilots: light paths, path reuse"; empty: none, or they have not run.
+std::string pilots_label(const Frame& frame) {
+    std::string names;
+    if (frame.feature_report)
+        for (const FeatureUse& use : *frame.feature_report)
+            if (use.pilot && use.used) names += (names.empty() ? "Pilots: " : ", ") + use.name;
+    return names;
+}
+
 } // namespace
 
 void EditorConvergence::submit(ConvergenceView& view, const Document& document, const SubmissionPtr& next, const std::string& opened) {
@@ -53,6 +62,7 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, co
     first_revision_ = next->revision;
     subject_ = {next->scene, next->settings};
     remixed_by_.clear();
+    pilots_marked_ = false;
     recording_seconds_ = 0;
     view.cost = {};
     measuring_.begin(view.runs.begin(name));
@@ -91,6 +101,11 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
         record.set(point);
     else if (known)
         record.add(point);
+    if (!pilots_marked_ && frame->samples > 1) // they run before the second sample
+        if (std::string label = pilots_label(*frame); !label.empty()) {
+            record.mark({frame->seconds, frame->samples, std::move(label)});
+            pilots_marked_ = true;
+        }
     if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
     if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples)))
         measuring_.add_raw(frame);

@@ -25,6 +25,7 @@ std::string settings_difference(const RenderSettings& before, const RenderSettin
     add(before.max_bounces != after.max_bounces, "Bounces " + max_bounces_text(after.max_bounces));
     add(before.roulette != after.roulette, "Roulette " + to_string(after.roulette));
     add(before.strategy != after.strategy, fmt::format("Strategy {}", to_string(after.strategy)));
+    add(before.caustics != after.caustics, fmt::format("Caustics {}", to_string(after.caustics)));
     add(before.filter != after.filter, fmt::format("Filter {}", to_string(after.filter)));
     add(before.adaptive != after.adaptive, on_off("Adaptive sampling", after.adaptive));
     add(before.reuse != after.reuse, fmt::format("Path reuse {}", reuse_text(after.reuse)));

@@ -8,6 +8,8 @@ import math
 import pathlib
 import sys
 
+import caustic_scenes
+from placement import about_y, direction
 from scene_writer import SceneWriter
 from shapes import Mesh, add, box, cross, dot, faceted, grid, lathe, mul, prism, quad, rounded, sphere, sub, tube, unit
 
@@ -222,19 +224,8 @@ def corridor():
     return scene
 
 
-def about_y(degrees):
-    half = math.radians(degrees) / 2
-    return (0, math.sin(half), 0, math.cos(half))
-
-
-def direction(azimuth, elevation):
-    """Degrees; azimuth 0 is +Z, towards the camera of most scenes, and 90 is +X."""
-    a, e = math.radians(azimuth), math.radians(elevation)
-    return (math.cos(e) * math.sin(a), math.sin(e), math.cos(e) * math.cos(a))
-
-
 if __name__ == "__main__":
-    for make in (card_and_mug, cornell, furnace, veach_mis, corridor):
+    for make in (card_and_mug, cornell, furnace, veach_mis, corridor, *caustic_scenes.SCENES):
         for name, content in make().files().items():
             if "--check" not in sys.argv:
                 (FOLDER / name).write_bytes(content)

@@ -85,8 +85,10 @@ class SceneWriter:
         self.json[key].append(value)
         return len(self.json[key]) - 1
 
-    def material(self, name, color, roughness=1.0, metallic=0.0, lambertian=False, emission=None, double_sided=False):
-        """color: linear reflectance. emission: nits. lambertian: without the specular layer of glTF's dielectrics."""
+    def material(self, name, color, roughness=1.0, metallic=0.0, lambertian=False, emission=None, double_sided=False,
+                 transmission=0.0, ior=None, attenuation=None, dispersion=0.0):
+        """color: linear reflectance. emission: nits. lambertian: without the specular layer of glTF's dielectrics.
+        attenuation: colour that white light has after a distance in metres, of a solid that transmits. dispersion: 20 / Abbe number."""
         m = {
             "name": name,
             "pbrMetallicRoughness": {
@@ -102,6 +104,16 @@ class SceneWriter:
             strength = max(emission)
             m["emissiveFactor"] = numbers(e / strength for e in emission)
             extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": short_float(strength)}
+        if transmission:
+            extensions["KHR_materials_transmission"] = {"transmissionFactor": short_float(transmission)}
+            color, distance = attenuation or ((1, 1, 1), 1)
+            extensions["KHR_materials_volume"] = {
+                "thicknessFactor": 0.01, "attenuationColor": numbers(color), "attenuationDistance": short_float(distance)
+            }
+        if ior:
+            extensions["KHR_materials_ior"] = {"ior": short_float(ior)}
+        if dispersion:
+            extensions["KHR_materials_dispersion"] = {"dispersion": short_float(dispersion)}
         if double_sided:
             m["doubleSided"] = True
         if extensions:

@@ -133,6 +133,38 @@ def rounded(corners, arc_steps):
     return out
 
 
+def curved(points, steps):
+    """(point, unit normal) along a smooth curve through points (r, y), a centripetal Catmull-Rom spline (Barry and Goldman 1988) with
+    `steps` pieces between two of them; it begins and ends at right angles to the axis. The normal is to the right of the direction of
+    travel."""
+    ends = [(-points[1][0], points[1][1]), *points, (-points[-2][0], points[-2][1])]
+    knots = [0.0]
+    for a, b in zip(ends, ends[1:]):
+        knots.append(knots[-1] + math.dist(a, b) ** 0.5)
+
+    def at(i, t):
+        p, k = list(ends[i - 1:i + 3]), knots[i - 1:i + 3]
+        for intervals in (((0, 1), (1, 2), (2, 3)), ((0, 2), (1, 3)), ((1, 2),)):
+            for j, (low, high) in enumerate(intervals):
+                f = (t - k[low]) / (k[high] - k[low])
+                p[j] = tuple((1 - f) * x + f * y for x, y in zip(p[j], p[j + 1]))
+        return p[0]
+
+    out = []
+    for i in range(1, len(points)):
+        for step in range(steps + (i == len(points) - 1)):
+            span = knots[i + 1] - knots[i]
+            t = knots[i] + span * step / steps
+            ahead, behind = at(i, t + 1e-4 * span), at(i, t - 1e-4 * span)
+            tangent = unit(sub(ahead, behind))
+            point = at(i, t)
+            if i == 1 and step == 0 or i == len(points) - 1 and step == steps:
+                tangent = (1.0 if i == 1 else -1.0, 0.0)
+                point = points[0] if i == 1 else points[-1]
+            out.append((point, (tangent[1], -tangent[0])))
+    return out
+
+
 def lathe(profile, columns):
     """Surface of revolution about y of a profile of ((r, y), (normal r, normal y)), from the bottom outside to the inside."""
     def at(row, column):

@@ -67,7 +67,7 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
     if (outdated != Outdated::film) learned.keep_from(before);
     info.reset();
-    kernel_name = std::string(kernel->isa) + "/" + std::string(kernel->name);
+    kernel_name = name_of(*kernel);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
@@ -135,7 +135,9 @@ const CompiledInfo& Renderer::info() {
 std::shared_ptr<const FeatureReport> Renderer::feature_report() {
     State& s = *state_;
     if (!s.feature_report) {
-        FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, s.full_film());
+        FilmSize film = s.full_film();
+        film.light_paths = film.light_paths || (s.divider == 1 && s.learned.light_paths().pays()); // before the film has its splats
+        FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, film);
         feature_report.push_back(s.reuse.report());
         feature_report.push_back(s.edges.report());
         for (FeatureUse& use : s.learned.report()) feature_report.push_back(std::move(use));

@@ -88,6 +88,8 @@ struct Renderer::State {
                                                                    : kernel_like(*kernel, kernel->features.with(Feature::light_paths));
     }
 
+    static std::string name_of(const Kernel& k) { return std::string(k.isa) + "/" + std::string(k.name); }
+
     FilmSize full_film() const {
         return {settings.width,    settings.height,          options.planes, transparent(),
                 settings.adaptive, int(mixing.gains.size()), catches(),      splats && divider == 1};

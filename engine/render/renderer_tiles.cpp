@@ -177,6 +177,8 @@ bool Renderer::State::decide(const Wanted& wanted) {
         if (!found) return false;
         edges.decide(*std::move(found));
     }
+    kernel_name = name_of(kernel_for(tables));
+    info.reset();
     feature_report.reset();
     return true;
 }

@@ -38,6 +38,15 @@ struct Clamp {
 };
 
 enum class Strategy : uint8_t { mis, light, bsdf };
+// Which ways to find caustics an image may use; pilots decide whether they pay. Each but `off` also samples directions into the objects
+// that cast them (caustic_guiding.h). All are unbiased. For comparison: `automatic` is best.
+enum class CausticStrategy : uint8_t {
+    automatic, // all
+    off,       // NEE and BSDF sampling alone
+    guiding,   // path guiding
+    light_paths,
+    manifold, // manifold sampling
+};
 enum class PixelFilter : uint8_t { blackman_harris, box };
 // Sampler: scrambled Sobol points, or independent random numbers.
 enum class SamplerType : uint8_t { sobol, random };
@@ -56,6 +65,7 @@ struct RenderSettings {
     int max_bounces = unlimited_bounces;
     Roulette roulette = {};
     Strategy strategy = Strategy::mis;
+    CausticStrategy caustics = CausticStrategy::automatic;
     PixelFilter filter = PixelFilter::blackman_harris;
     SamplerType sampler = SamplerType::sobol;
     bool energy_compensation = false;
@@ -91,6 +101,8 @@ Result<int> parse_reuse(std::string_view text); // "auto", "off", "4", "8" or "1
 std::string_view reuse_text(int reuse);         // empty for other numbers
 Result<Strategy> parse_strategy(std::string_view text);
 std::string_view to_string(Strategy strategy);
+Result<CausticStrategy> parse_caustics(std::string_view text);
+std::string_view to_string(CausticStrategy caustics);
 Result<PixelFilter> parse_filter(std::string_view text);
 std::string_view to_string(PixelFilter filter);
 Result<SamplerType> parse_sampler(std::string_view text);

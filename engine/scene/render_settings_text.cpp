@@ -25,6 +25,13 @@ constexpr std::array<EnumName<Strategy>, 3> strategy_words{{
     {Strategy::light, "light"},
     {Strategy::bsdf, "bsdf"},
 }};
+constexpr std::array<EnumName<CausticStrategy>, 5> caustic_words{{
+    {CausticStrategy::automatic, "auto"},
+    {CausticStrategy::off, "off"},
+    {CausticStrategy::guiding, "guiding"},
+    {CausticStrategy::light_paths, "light-paths"},
+    {CausticStrategy::manifold, "manifold"},
+}};
 constexpr std::array<EnumName<PixelFilter>, 2> filter_words{{
     {PixelFilter::blackman_harris, "blackman-harris"},
     {PixelFilter::box, "box"},
@@ -139,6 +146,8 @@ Result<int> parse_reuse(std::string_view text) { return enum_from_string(reuse_w
 std::string_view reuse_text(int reuse) { return enum_to_string(reuse_words, reuse); }
 Result<Strategy> parse_strategy(std::string_view text) { return enum_from_string(strategy_words, text, "strategy"); }
 std::string_view to_string(Strategy strategy) { return enum_to_string(strategy_words, strategy); }
+Result<CausticStrategy> parse_caustics(std::string_view text) { return enum_from_string(caustic_words, text, "strategy for caustics"); }
+std::string_view to_string(CausticStrategy caustics) { return enum_to_string(caustic_words, caustics); }
 Result<PixelFilter> parse_filter(std::string_view text) { return enum_from_string(filter_words, text, "filter"); }
 std::string_view to_string(PixelFilter filter) { return enum_to_string(filter_words, filter); }
 Result<SamplerType> parse_sampler(std::string_view text) { return enum_from_string(sampler_words, text, "sampler"); }

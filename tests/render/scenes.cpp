@@ -24,5 +24,9 @@ const std::vector<std::string>& shipped_scene_names() {
     static const std::vector<std::string> names = {"card-and-mug", "cornell", "corridor", "furnace", "veach-mis"};
     return names;
 }
+const std::vector<std::string>& caustic_scene_names() {
+    static const std::vector<std::string> names = {"bulb", "metal-ring", "pool", "prism", "wine-glass"};
+    return names;
+}
 
 } // namespace blush::test

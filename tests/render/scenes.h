@@ -12,7 +12,9 @@ using namespace stability;
 
 // One of assets/scenes by name; ends the test if it cannot be read.
 Scene shipped_scene(const std::string& name);
+// Those without caustics, which have references, and the demo scenes of caustics.
 const std::vector<std::string>& shipped_scene_names();
+const std::vector<std::string>& caustic_scene_names();
 
 // A light so strong and so close to the floor that its irradiance overflows in the middle of the image.
 Scene floor_under_an_overflowing_bulb();

@@ -87,10 +87,15 @@ TEST(MaxBounces, TextRoundTrips) {
 
 TEST(EnumNames, RoundTrip) {
     for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
+    for (const CausticStrategy c : {CausticStrategy::automatic, CausticStrategy::off, CausticStrategy::guiding,
+                                    CausticStrategy::light_paths, CausticStrategy::manifold})
+        EXPECT_EQ(*parse_caustics(to_string(c)), c);
     for (const PixelFilter f : {PixelFilter::blackman_harris, PixelFilter::box}) EXPECT_EQ(*parse_filter(to_string(f)), f);
     for (const SamplerType n : {SamplerType::sobol, SamplerType::random}) EXPECT_EQ(*parse_sampler(to_string(n)), n);
     EXPECT_EQ(parse_sampler("halton").error().text(), "unknown sampler \"halton\" (known: sobol, random)");
     EXPECT_EQ(parse_strategy("MIS").error().text(), "unknown strategy \"MIS\" (known: mis, light, bsdf)");
+    EXPECT_EQ(parse_caustics("on").error().text(),
+              "unknown strategy for caustics \"on\" (known: auto, off, guiding, light-paths, manifold)");
     EXPECT_EQ(parse_filter("gauss").error().text(), "unknown filter \"gauss\" (known: blackman-harris, box)");
 }
 

@@ -93,6 +93,7 @@ void draw_reuse(Fields& f, RenderSettings& r) {
 
 void draw_paths(Fields& f, RenderSettings& r) {
     static constexpr const char* strategies[] = {"Both (MIS)", "Light sampling", "BSDF sampling"};
+    static constexpr const char* caustic_strategies[] = {"Auto", "Off", "Path guiding", "Light paths", "Manifold sampling"};
     static constexpr const char* filters[] = {"Blackman-Harris", "Box"};
     static constexpr const char* samplers[] = {"Sobol points", "Random numbers"};
     draw_bounce_limit_fields(f, r);
@@ -102,6 +103,11 @@ void draw_paths(Fields& f, RenderSettings& r) {
                  "How direct light is sampled: light sampling (NEE), BSDF sampling, or both combined by multiple importance "
                  "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
+    int caustics = int(r.caustics);
+    if (f.choice("Caustics", caustics, caustic_strategies,
+                 "Which strategies for caustics of mirrors and glass may be used. Auto: all that a pilot finds to pay; the section "
+                 "Specialisation below says which. The others are for comparison. All are unbiased; the noise differs."))
+        r.caustics = CausticStrategy(caustics);
     f.checkbox("Compensate MIS", r.mis_compensation,
                "MIS compensation (Karlik et al. 2019): light sampling leaves the even part of an environment to BSDF sampling, which finds "
                "it with less noise. Only with MIS. "

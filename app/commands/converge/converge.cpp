@@ -186,7 +186,8 @@ void add_converge_command(CLI::App& app, std::function<int()>& run) {
         ->type_name("'NAME: OPTIONS'")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    sub->add_option("--preset", command->preset, "Settings to compare: roulette, strategies, bounces or samplers")->type_name("NAME");
+    sub->add_option("--preset", command->preset, "Settings to compare: roulette, strategies, bounces, samplers or caustics")
+        ->type_name("NAME");
     sub->add_option("--repeats", command->repeats, "Independent repeats, each with its own seed [4]")
         ->check(CLI::Range(1, 1000))
         ->type_name("N");

@@ -23,11 +23,15 @@ constexpr const char* samplers[]{"random numbers: --sampler random", "Sobol poin
                                  "random numbers, adaptive: --sampler random --adaptive on",
                                  "Sobol points, adaptive: --sampler sobol --adaptive on"};
 
+constexpr const char* caustics[]{"without: --caustics off", "path guiding: --caustics guiding", "light paths: --caustics light-paths",
+                                 "manifold sampling: --caustics manifold", "all (auto): --caustics auto"};
+
 struct Preset {
     const char* name;
     std::span<const char* const> variants;
 };
-constexpr Preset presets[]{{"roulette", roulette}, {"strategies", strategies}, {"bounces", bounces}, {"samplers", samplers}};
+constexpr Preset presets[]{
+    {"roulette", roulette}, {"strategies", strategies}, {"bounces", bounces}, {"samplers", samplers}, {"caustics", caustics}};
 
 std::string trimmed(const std::string& text) {
     const size_t first = text.find_first_not_of(" \t");

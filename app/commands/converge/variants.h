@@ -18,7 +18,7 @@ struct Variant {
 // variants must share (image and stop rules).
 Result<Variant> parse_variant(const std::string& text, const RenderOptions& base);
 
-// roulette, strategies, bounces, samplers. Errors: unknown preset.
+// roulette, strategies, bounces, samplers, caustics. Errors: unknown preset.
 Result<std::vector<Variant>> preset_variants(const std::string& preset, const RenderOptions& base);
 
 } // namespace blush

@@ -170,6 +170,10 @@ void add_integrator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");
+    add_parsed(app, "--caustics", o.settings.caustics, parse_caustics,
+               "Which strategies for caustics pilots may choose, for comparison: all, none, path guiding, light paths or manifold sampling "
+               "[auto]")
+        ->type_name("auto|off|guiding|light-paths|manifold");
     add_parsed(app, "--mis-compensation", o.settings.mis_compensation, parse_switch,
                "Light sampling leaves the even part of an environment to BSDF sampling (MIS compensation) [on]")
         ->type_name("on|off");

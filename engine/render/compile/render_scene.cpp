@@ -69,11 +69,12 @@ void RenderScene::aim(std::span<const Vec3> gains) {
     lights_.fill(tables_.lights);
 }
 
-// Casters only matter if rays can find light, and Strategy::bsdf excludes caustic guiding.
+// Casters only matter if rays can find light. Strategy::bsdf and CausticStrategy::off exclude caustic guiding.
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
-    const bool wanted = settings.strategy != Strategy::bsdf && (found || narrow_sky);
+    const bool guides = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
+    const bool wanted = guides && (found || narrow_sky);
     if (!changed_.objects && !changed_.origin && !changed_.casters && wanted == has_casters_) return;
     has_casters_ = wanted;
     caustic_casters_.build(scene, objects_, extent_.origin, wanted);

@@ -34,7 +34,7 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
          GroupPlanes::bytes_per_pixel(std::max(1, size.groups))},
         {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher",
          places * sizeof(CaughtSums)},
-        {"light paths", size.light_paths, size.light_paths ? "paths from lights reach any pixel" : "no paths start at lights",
+        {"splats", size.light_paths, size.light_paths ? "light paths reach any pixel" : "there are no light paths",
          SplatPlanes::bytes_per_pixel},
         {"path statistics", planes.roulette, planes.roulette ? "used by a roulette view" : "not used: no roulette view",
          places * sizeof(Vec3d)},

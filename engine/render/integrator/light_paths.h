@@ -73,6 +73,7 @@ template <class F> struct LightVertex {
     Vec<F> beta;
     F hit_ratio, nee_ratio; // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
     Mask<F> scatters, solid;
+    Mask<F> dispersed; // the path carries a single wavelength
 };
 
 // Density with which NEE at the first vertex samples the point of the light, over projected solid angle.
@@ -208,6 +209,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
         continues = continues && !ends_chain<S, F>(context, scratch, path, v);
     }
     const unsigned lanes = bits(continues);
+    if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, select(v.dispersed, Int<F>(1), Int<F>(0)), lanes);
     compress(scratch.light_paths->hit_ratio[queue] + next.size, min(hit_ratio, F(1e30f)), lanes);
     compress(scratch.light_paths->nee_ratio[queue] + next.size, min(nee_ratio, F(1e30f)), lanes);
     append<S, F>(next, p, continues);
@@ -222,7 +224,8 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
     next.size = 0;
     scratch.shadows.size = 0;
     for (int k = 0; k < now.size; k += width<F>) {
-        const Path<F> path = load_path<S, F>(now, k);
+        Path<F> path = load_path<S, F>(now, k);
+        if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
         const Hit<F> hit = load_hit<F>(scratch.hits, k);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
@@ -234,15 +237,13 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         const Surface<F> surface = surface_at<S, F>(scene, hit, met, footprint);
         MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, met);
         const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
-        const Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
+        Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
         const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
+        const Mask<F> scatters = met && !material.unlit;
+        const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
         const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
-        LightVertex<F> v{surface,   material,
-                         shading,   bsdf,
-                         side.wo,   clamped_cosine<F>(shading.ng, side.wo),
-                         beta,      F(0.f),
-                         F(0.f),    met && !material.unlit,
-                         side.solid};
+        LightVertex<F> v{surface, material, shading, bsdf,     side.wo,    clamped_cosine<F>(shading.ng, side.wo),
+                         beta,    F(0.f),   F(0.f),  scatters, side.solid, dispersed};
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(bsdf);
             if (!any(v.scatters)) continue;

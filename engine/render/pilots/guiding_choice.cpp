@@ -1,6 +1,7 @@
 #include "render/pilots/guiding_choice.h"
 
 #include "render/compile/render_scene.h"
+#include "render/pilots/caustic_limits.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -10,6 +11,7 @@ namespace {
 
 // Why path guiding cannot gain anything; null if it may.
 const char* why_no_guiding(const RenderSettings& settings, const RenderScene& scene) {
+    if (const char* why = why_excluded(settings, CausticStrategy::guiding)) return why;
     if (scene.tables().guides.casters.count == 0) return "no mirror or glass has light to focus";
     if (!scene.may_be_lambertian()) return "no surface is Lambertian";
     if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";

@@ -11,6 +11,7 @@ namespace {
 
 // Splats are not samples, so they cannot be clamped as such.
 const char* why_no_light_paths(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
+    if (const char* why = why_excluded(settings, CausticStrategy::light_paths)) return why;
     const char* why = why_no_caustics(settings, scene, film);
     return !why && settings.clamp.limit > 0 ? "samples are clamped" : why;
 }

@@ -8,8 +8,19 @@
 
 namespace blush {
 
+namespace {
+
+const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
+    const char* why = why_excluded(settings, CausticStrategy::manifold);
+    if (why) return why;
+    if (scene.features().has(Feature::dispersion)) return "a solid has dispersion"; // Newton's method traces one index of refraction
+    return why_no_caustics(settings, scene, film);
+}
+
+} // namespace
+
 ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<bool> used)
-    : useless_(why_no_caustics(settings, scene, film)), used_(used), casters_(scene.tables().guides.casters) {}
+    : useless_(why_no_manifolds(settings, scene, film)), used_(used), casters_(scene.tables().guides.casters) {}
 
 void ManifoldChoice::decide(ManifoldPilot pilot) {
     if (!useless_) pilot_ = std::move(pilot);

@@ -100,6 +100,32 @@ protected:
     SubmissionPtr submitted;
 };
 
+TEST_F(Convergence, MarksWherePilotsHaveDecided) {
+    const FeatureUse paths{.part = "kernel", .name = "light paths", .used = true, .why = "", .pilot = PilotFigures{}};
+    FeatureUse reuse = paths, textures = paths;
+    reuse.name = "path reuse";
+    reuse.used = false;
+    textures.name = "textures";
+    textures.pilot.reset();
+    const auto frame = [&](int64_t samples, const FeatureReport& report) {
+        auto f = frame_of(1, samples, 0.5);
+        f->feature_report = std::make_shared<const FeatureReport>(report);
+        return f;
+    };
+    begin("Opened", 1);
+    editor.update(view, {frame(1, {paths}), nullptr}); // samples before the second are rendered without
+    editor.update(view, {frame(2, {textures, reuse}), nullptr});
+    EXPECT_TRUE(view.runs.live()->record.marks().empty());
+    editor.update(view, {frame(4, {textures, paths, reuse}), nullptr});
+    editor.update(view, {frame(8, {textures, paths, reuse}), nullptr});
+    ASSERT_EQ(view.runs.live()->record.marks().size(), 1u);
+    const ConvergenceMark& mark = view.runs.live()->record.marks()[0];
+    EXPECT_EQ(mark.label, "Pilots: light paths");
+    EXPECT_EQ(mark.spp, 4);
+    EXPECT_EQ(mark.seconds, 0.04);
+    EXPECT_FALSE(mark.other_mix);
+}
+
 TEST_F(Convergence, RecordsOnlyFullResolutionImagesOfTheRun) {
     editor.update(view, {frame_of(1, 4, 1), nullptr});
     EXPECT_FALSE(view.runs.live());

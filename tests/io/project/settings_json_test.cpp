@@ -19,6 +19,7 @@ RenderSettings unusual_settings() {
     s.max_bounces = 2;
     s.roulette = {Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f};
     s.strategy = Strategy::bsdf;
+    s.caustics = CausticStrategy::light_paths;
     s.filter = PixelFilter::box;
     s.sampler = SamplerType::random;
     s.energy_compensation = true;

@@ -22,10 +22,9 @@ inline Light caustic_light(Light::Kind kind, float intensity, float radius = 0) 
     return light;
 }
 
-// Blocks of the image: means over independent images, as one light path adds to many pixels. Expects the feature of this name to be used
-// or not.
-inline std::vector<Measured> caustic_blocks(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
-                                            std::string_view feature, bool used, int images, uint32_t first_seed) {
+// Blocks of the image: means over independent images, as one light path adds to many pixels. Calls check(renderer) for each.
+template <class Check> std::vector<Measured> image_blocks(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
+                                                          int images, uint32_t first_seed, const Check& check) {
     using statistics::Moments;
     std::vector<std::array<Moments, 3>> moments;
     for (int k = 0; k < images; ++k) {
@@ -33,7 +32,7 @@ inline std::vector<Measured> caustic_blocks(const Scene& scene, RenderSettings s
         Renderer renderer({.threads = 2, .caustics = strategies});
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
-        EXPECT_EQ(feature_line(renderer, feature).used, used);
+        check(renderer);
         const auto blocks = image_of(renderer).blocks(settings.width / 3, settings.height / 3);
         moments.resize(blocks.size());
         for (size_t i = 0; i < blocks.size(); ++i) {
@@ -45,6 +44,13 @@ inline std::vector<Measured> caustic_blocks(const Scene& scene, RenderSettings s
     std::vector<Measured> measured;
     for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
     return measured;
+}
+
+// The same; expects the feature of this name to be used or not.
+inline std::vector<Measured> caustic_blocks(const Scene& scene, const RenderSettings& settings, const CausticOptions& strategies,
+                                            std::string_view feature, bool used, int images, uint32_t first_seed) {
+    return image_blocks(scene, settings, strategies, images, first_seed,
+                        [&](Renderer& renderer) { EXPECT_EQ(feature_line(renderer, feature).used, used); });
 }
 
 } // namespace blush::test

@@ -78,6 +78,13 @@ TEST(Kernels, GiveTheSameBitsOnShippedScenes) {
     }
 }
 
+TEST(Kernels, GiveTheSameBitsOnCaustics) {
+    for (const std::string& name : caustic_scene_names()) {
+        SCOPED_TRACE(name);
+        expect_same_bits_from_all_kernels(Compiled(shipped_scene(name)));
+    }
+}
+
 TEST(Kernels, GiveTheSameBitsFromIndependentNumbers) {
     expect_same_bits_from_all_kernels(Compiled(shipped_scene("card-and-mug"), false, 1, SamplerType::random));
 }

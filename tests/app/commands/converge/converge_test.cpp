@@ -46,7 +46,7 @@ TEST(Variants, AreANameAndTheOptionsOfRender) {
 }
 
 TEST(Variants, PresetsAllParse) {
-    for (const char* preset : {"roulette", "strategies", "bounces", "samplers"}) {
+    for (const char* preset : {"roulette", "strategies", "bounces", "samplers", "caustics"}) {
         const auto variants = preset_variants(preset, {});
         ASSERT_TRUE(variants) << variants.error().text();
         EXPECT_GE(variants->size(), 2u);

@@ -54,6 +54,8 @@ std::vector<std::string> every_option() {
             "constant=0.5,start=1",
             "--strategy",
             "light",
+            "--caustics",
+            "manifold",
             "--energy-compensation",
             "on",
             "--mis-compensation",
@@ -103,6 +105,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.max_bounces = 2;
     expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
     expected.strategy = Strategy::light;
+    expected.caustics = CausticStrategy::manifold;
     expected.energy_compensation = true;
     expected.mis_compensation = false;
     expected.adaptive = false;
@@ -192,6 +195,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--seed", "-1"},
                                                       {"--max-bounces", "few"},
                                                       {"--strategy", "both"},
+                                                      {"--caustics", "on"},
                                                       {"--sampler", "halton"},
                                                       {"--energy-compensation", "maybe"},
                                                       {"--mis-compensation", "maybe"},
