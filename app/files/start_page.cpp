@@ -3,7 +3,20 @@
 #include "app/common/output_folder.h"
 #include "ui/window/file_listing.h"
 
+#include <algorithm>
+#include <array>
+
 namespace blush {
+namespace {
+
+// Shown first: global illumination in its plainest form. The others follow by name.
+constexpr std::array<std::string_view, 3> first_demos = {"card-and-mug", "cornell", "corridor"};
+
+ptrdiff_t rank(const std::string& file) {
+    return std::ranges::find(first_demos, std::filesystem::path(file).stem().string()) - first_demos.begin();
+}
+
+} // namespace
 
 std::vector<std::string> StartPage::demos() const {
     std::vector<std::string> files;
@@ -11,6 +24,7 @@ std::vector<std::string> StartPage::demos() const {
     if (const auto listing = list_folder(folder, scene_files))
         for (const FileEntry& entry : listing->entries)
             if (!entry.folder) files.push_back(std::filesystem::absolute(folder / entry.name).string());
+    std::ranges::stable_sort(files, {}, rank);
     return files;
 }
 

@@ -13,7 +13,7 @@ class StartPage {
 public:
     StartPage(std::filesystem::path assets, std::function<void()> wake)
         : assets_(std::move(assets)), thumbnails_(assets_, std::move(wake)) {}
-    // The shipped scenes, sorted by name.
+    // The shipped scenes: the default scene and other plain ones first, the rest sorted by name.
     std::vector<std::string> demos() const;
     // Thumbnail of a scene or image file; 0: none (yet).
     ImTextureID thumbnail(const std::string& file) { return thumbnails_.of(file); }

@@ -33,15 +33,15 @@ bool draw_card(PanelContext& c, const std::string& file) {
     return clicked;
 }
 
-// Up to the given number of rows, filled from the left. Files that do not fit are only in the menus.
-void draw_rows(PanelContext& c, const char* title, const std::vector<std::string>& files, size_t rows) {
+// Rows filled from the left; with `one_row`, files that do not fit are only in the menus.
+void draw_rows(PanelContext& c, const char* title, const std::vector<std::string>& files, bool one_row) {
     if (files.empty()) return;
     const float em = ImGui::GetFontSize(), left = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(title);
     ImGui::SameLine(left + title_width * em);
     const float card = card_width * em + ImGui::GetStyle().ItemSpacing.x;
     const size_t fitting = size_t(std::clamp(ImGui::GetContentRegionAvail().x / card, 1.f, float(max_cards)));
-    for (size_t i = 0; i < std::min(files.size(), rows * fitting); ++i) {
+    for (size_t i = 0; i < (one_row ? std::min(files.size(), fitting) : files.size()); ++i) {
         if (i % fitting > 0)
             ImGui::SameLine();
         else if (i > 0)
@@ -61,8 +61,8 @@ void draw_start_page(PanelContext& c) {
     std::vector<std::string> recent;
     std::ranges::copy_if(c.ui.settings.recent, std::back_inserter(recent),
                          [&](const std::string& file) { return std::ranges::count(c.ui.demos, file) == 0; });
-    draw_rows(c, "Recent", recent, 1);
-    draw_rows(c, "Demos", c.ui.demos, recent.empty() ? 2 : 1);
+    draw_rows(c, "Recent", recent, true);
+    draw_rows(c, "Demos", c.ui.demos, false);
     if (!c.ui.files.empty()) c.ui.opening_page = false;
 }
 
