@@ -22,9 +22,12 @@ template <Features S> bool samples_manifolds(const SceneTables& scene) {
     if constexpr (S.has(Feature::light_paths)) return !scene.manifolds.empty();
     return false;
 }
-// True if diffuse vertices at this bounce begin chains: with light paths, those that they cannot connect to the camera.
-template <Features S> bool starts_chains(const SceneTables& scene, int bounce) {
-    return samples_manifolds<S>(scene) && (bounce > 0 || scene.emission.empty());
+// Paths whose diffuse vertex at this bounce may begin a chain: with light paths, those that light paths cannot sample, as the camera sees
+// their first vertex through glass or a mirror.
+template <Features S, class F> Mask<F> starts_chains(const SceneTables& scene, const Path<F>& path, int bounce) {
+    if (!samples_manifolds<S>(scene)) return Mask<F>(false);
+    if (scene.emission.empty()) return Mask<F>(true);
+    return Mask<F>(bounce > 0) && path.light_ratio == F(0.f);
 }
 // Path::chain: in its low byte 1 behind a Lambertian surface, and 1 more for each event; above the events (shading/manifold_seeds.h).
 template <class F> Int<F> chain_length(const Int<F>& chain) { return (chain & 0xff) - 1; }

@@ -49,7 +49,7 @@ template <class F> Step<F> ended_step(const Vec<F>& beta) {
     Step<F> step;
     step.emitted = splat<F>(0.f);
     step.light = Int<F>(0);
-    step.connects = step.continues = step.non_finite = Mask<F>(false);
+    step.connects = step.continues = step.non_finite = step.crosses = step.internal = Mask<F>(false);
     step.weights = {F(1.f), F(1.f), F(0.f), F(0.f), F(1.f), Mask<F>(false), beta};
     return step;
 }

@@ -144,22 +144,6 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     append<F>(scratch.shadows, step, path.slot, connects);
 }
 
-// Lanes whose vertex is the diffuse end of a chain from the light. Manifold sampling finds that light where camera paths meet the vertex
-// later than first, so the light path is connected to the camera there, and then ends.
-template <Features S, class F>
-Mask<F> ends_chain(const KernelContext& context, const TileScratch& scratch, const Path<F>& path, const LightVertex<F>& v) {
-    const ManifoldTables& t = context.scene->manifolds;
-    Mask<F> ends = is_lambertian<S, F>(v.bsdf) && !v.shading.behind && is_chain<F>(path.chain);
-    if (!any(ends)) return ends;
-    alignas(64) int32_t groups[width<F>];
-    for (int i = 0; i < width<F>; ++i) groups[i] = -1;
-    for_each_lane(bits(ends), [&](int i) {
-        const int32_t light = scratch.light_paths->emitted[size_t(lane(path.slot, i))].light;
-        if (light < t.lights) groups[i] = t.group_of_light[light];
-    });
-    return ends && as_mask(load<Int<F>>(groups) >= 0);
-}
-
 // Appends the path behind the vertex.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_light_path(const KernelContext& context, const Path<F>& path,
                                                                                         const LightVertex<F>& v, int bounce,
@@ -201,13 +185,6 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     Path<F> p = path;
     p.ray = {offset_origin(v.surface.position, v.surface.error, v.shading.ng, outward), wi};
     p.beta = beta;
-    if (samples_manifolds<S>(*context.scene)) {
-        const Int<F> flags = gather_field(context.scene->materials.materials, &MaterialRecord::flags, v.surface.material);
-        const Mask<F> internal = v.solid && dot(v.wo, v.surface.ng) < F(0.f) && !crosses;
-        const Mask<F> goes_on = s.delta && !internal && may_grow<F>(path.chain) && as_mask((flags & int32_t(material_chains)) != 0);
-        p.chain = select(goes_on, longer_chain<F>(path.chain, Mask<F>(false)), Int<F>(0)); // of light paths only the length is of use
-        continues = continues && !ends_chain<S, F>(context, scratch, path, v);
-    }
     const unsigned lanes = bits(continues);
     if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, select(v.dispersed, Int<F>(1), Int<F>(0)), lanes);
     compress(scratch.light_paths->hit_ratio[queue] + next.size, min(hit_ratio, F(1e30f)), lanes);

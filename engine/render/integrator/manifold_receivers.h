@@ -137,8 +137,9 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
                                                                                   const Path<F>& path, const Step<F>& step, int bounce,
                                                                                   const Mask<F>& active) {
     const ReuseVertex<F>& v = step.reuse_vertex;
-    const Mask<F> lambertian = active && v.lambertian && max_component(v.reflectance) > F(0.f);
-    if (bounce + 1 >= context.settings.max_bounces || !starts_chains<S>(*context.scene, bounce) || !any(lambertian)) return;
+    const Mask<F> lambertian =
+        active && v.lambertian && max_component(v.reflectance) > F(0.f) && starts_chains<S, F>(*context.scene, path, bounce);
+    if (bounce + 1 >= context.settings.max_bounces || !any(lambertian)) return;
     const SceneTables& scene = *context.scene;
     const ManifoldTables& t = scene.manifolds;
     ManifoldColumns& c = *scratch.manifolds;

@@ -9,7 +9,8 @@
 // it is found again is an unbiased estimate of its inverse (Booth 2007, "Unbiased Monte Carlo Estimation of the Reciprocal of an
 // Integral").
 //
-// Paths that meet such a light by chance share it (manifold_hits.h); light paths skip it.
+// Paths that meet such a light by chance share it (manifold_hits.h). What light paths sample, too, is left to them: paths whose first
+// vertex they can connect to the camera.
 #pragma once
 
 #include "render/integrator/manifold_walk.h"

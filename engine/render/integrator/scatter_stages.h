@@ -205,7 +205,7 @@ template <Features S, class F> Int<F> next_chain(const SceneTables& scene, const
                                                  const IndirectSample<F>& s, const Step<F>& step, int bounce) {
     if (!samples_manifolds<S>(scene)) return Int<F>(0);
     const Int<F> flags = gather_field(scene.materials.materials, &MaterialRecord::flags, p.surface.material);
-    const Mask<F> begins = p.lambertian && !p.shading.behind && Mask<F>(starts_chains<S>(scene, bounce));
+    const Mask<F> begins = p.lambertian && !p.shading.behind && starts_chains<S, F>(scene, path, bounce);
     const Mask<F> goes_on = s.bsdf.delta && !step.internal && may_grow<F>(path.chain) && as_mask((flags & int32_t(material_chains)) != 0);
     return select(goes_on, longer_chain<F>(path.chain, step.crosses), select(begins, begun_chain<F>(), Int<F>(0)));
 }

@@ -71,7 +71,7 @@ inline void begin_light_paths(const LightPathColumns& columns, PathQueue& q) {
         q.slot[i] = int32_t(k);
         q.part[i] = -1;
         q.dispersed[i] = 0;
-        q.chain[i] = 1;
+        q.chain[i] = 0;
     }
 }
 
