@@ -16,7 +16,7 @@ constexpr uint32_t light_seed = 0x11a7a000, camera_seed = 0x11a7a001;
 constexpr int pilot_pixels = 1 << 14; // of the image that is measured,
 constexpr int error_tile = 8;         // pixels along a side of the tiles whose mean relative errors refer to
 constexpr int light_tiles = 16;       // of tile_capacity light paths
-constexpr std::array<float, 5> shares{0.125f, 0.25f, 0.5f, 1, 2};
+constexpr std::array<float, 7> shares{0.125f, 0.25f, 0.5f, 1, 2, 4, 8};
 constexpr double least_ratio = 1e-9; // of densities: light that the camera cannot find at all
 
 // Luminance by pixel.
