@@ -6,7 +6,9 @@
 #include "render/compile/render_scene.h"
 #include "render/film/film_state.h"
 #include "render/integrator/kernel_settings.h"
+#include "render/integrator/light_path_weights.h"
 #include "tests/render/integrator/caustic_images.h"
+#include "tests/support/statistics.h"
 
 #include <cmath>
 #include <cstring>
@@ -119,6 +121,126 @@ TEST(LightPathEmission, CarriesTheFluxOfTheLights) {
     // Lux are those of a surface that faces the middle of the sun; each beam has its own cross-section.
     const double cosines = (1 + std::cos(0.05)) / 2;
     EXPECT_TRUE(z_test(emitted_flux(sunny), 3 / cosines * pi_ * radius * radius));
+}
+
+// Directions of emitted paths. `density`: per solid angle.
+testing::AssertionResult emission_follows(const Compiled& compiled, const auto& density) {
+    const LightPathEmission emission = compiled.emission();
+    uint32_t path = 0;
+    const auto draw = [&]() -> std::optional<Vec3> {
+        const EmittedPath e = emission.emit(compiled.scene.tables(), {pcg_hash(path++), 5});
+        return e.density > 0 ? std::optional(e.direction) : std::nullopt;
+    };
+    return directions_follow({.rows = 24, .columns = 24, .points = 48}, draw, density);
+}
+// emission_density() per solid angle, at the middle of a light that is small beside its distance.
+float density_at_center(const Compiled& compiled, const EmissionTables& tables, int32_t light, const Vec3& normal, const Vec3& away) {
+    const LightRecord& record = compiled.scene.tables().lights.lights[light];
+    const Vec3 center = record.position + (record.edge1 + record.edge2) * (1.f / 3);
+    const auto p = emission_point<all_features, float>(compiled.scene.tables(), light, center, normal, -away, true);
+    return emission_density<float>(tables, p, true) * std::abs(dot(normal, away)) / p.density;
+}
+
+TEST(LightPathEmission, OfTrianglesFollowsItsDensity) {
+    for (const bool two_sided : {false, true}) {
+        SCOPED_TRACE(two_sided);
+        Scene scene = one_ball();
+        place(scene, sphere(false), metal(0), at({-0.8f, 1.5f, 0.3f}, 0.3f));
+        Material lamp = emitter(7);
+        lamp.double_sided = two_sided;
+        place(scene, ceiling_quad(1e-3f, 1.2f), lamp);
+        const Compiled compiled(scene);
+        const LightPathEmission emission = compiled.emission();
+        const EmissionTables tables = emission.tables(1);
+        ASSERT_EQ(compiled.scene.tables().lights.count, 2);
+        EXPECT_TRUE(emission_follows(compiled, [&](const Vec3& away) {
+            return density_at_center(compiled, tables, 0, {0, -1, 0}, away) + density_at_center(compiled, tables, 1, {0, -1, 0}, away);
+        }));
+    }
+}
+
+TEST(LightPathEmission, OfSpheresFollowsItsDensity) {
+    Scene scene = one_ball();
+    place(scene, sphere(false), metal(0), at({-0.8f, 1.5f, 0.3f}, 0.3f));
+    place_light(scene, caustic_light(Light::Kind::point, 5, 1e-3f), at({0, 1.2f, 0}));
+    place_light(scene, caustic_light(Light::Kind::point, 5), at({0.4f, 1.2f, 0})); // without size: no path
+    const Compiled compiled(scene);
+    const LightPathEmission emission = compiled.emission();
+    const EmissionTables tables = emission.tables(1);
+    EXPECT_TRUE(emission_follows(compiled, [&](const Vec3& away) {
+        double sum = 0;
+        for (int32_t light = 0; light < compiled.scene.tables().lights.count; ++light) {
+            if (LightKind(compiled.scene.tables().lights.lights[light].kind) != LightKind::sphere) continue;
+            // At a cosine x it is c + e x, with c towards the casters and e over the hemisphere; the mean over all normals is c / 2 + e
+            // / 4.
+            const Vec3 tilted = normalize(basis_around(away).s * std::sqrt(0.75f) + away * 0.5f);
+            const float facing = density_at_center(compiled, tables, light, away, away),
+                        half = density_at_center(compiled, tables, light, tilted, away);
+            const float even = 2 * (facing - half);
+            sum += double((facing - even) / 2 + even / 4);
+        }
+        return float(sum);
+    }));
+}
+
+TEST(LightPathEmission, OfSunsIsUniformOverTheirDisks) {
+    Scene scene = one_ball();
+    Light sun = caustic_light(Light::Kind::sun, 3);
+    sun.angle_radians = 1.2f;
+    place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    const Compiled compiled(scene);
+    const Vec3 axis = normalize(Vec3{0.3f, -1, 0.2f});
+    const float edge = std::cos(0.6f), pdf = 1 / (2 * pi * (1 - edge));
+    EXPECT_TRUE(emission_follows(compiled, [&](const Vec3& away) { return dot(away, axis) > edge ? pdf : 0.f; }));
+}
+
+// Beams of a distant light: places across them, for one direction.
+TEST(LightPathEmission, OfBeamsFollowsItsDensity) {
+    Scene scene = one_ball();
+    place(scene, sphere(false), metal(0), at({-0.8f, 1.5f, 0.3f}, 0.3f));
+    Light sun = caustic_light(Light::Kind::sun, 3);
+    sun.angle_radians = 1e-3f;
+    place_light(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    const Compiled compiled(scene);
+    const LightPathEmission emission = compiled.emission();
+    const EmissionTables tables = emission.tables(1);
+    const Vec3 away{0, -1, 0}, center = compiled.scene.bounding_sphere().center;
+    const float radius = compiled.scene.bounding_sphere().radius;
+    constexpr int cells = 24, points = 48;
+    constexpr int64_t samples = 100'000;
+    std::vector<double> expected(cells * cells);
+    for (int i = 0; i < cells * points; ++i)
+        for (int k = 0; k < cells * points; ++k) {
+            const auto along = [&](int n) { return (2 * (float(n) + 0.5f) / (cells * points) - 1) * radius; };
+            const Vec3 position = center + Vec3{along(i), 0, along(k)};
+            const auto p = emission_point<all_features, float>(compiled.scene.tables(), 0, position, {}, -away, true);
+            const double area = 4 * double(radius) * double(radius) / (cells * points * cells * points);
+            // Of the place alone: without the density of the direction.
+            expected[size_t(i / points * cells + k / points)] +=
+                double(emission_density<float>(tables, p, true) / p.density) * area * samples;
+        }
+    std::vector<int64_t> counts(expected.size());
+    for (uint32_t path = 0; path < samples; ++path) {
+        const EmittedPath e = emission.emit(compiled.scene.tables(), {pcg_hash(path), 5});
+        const Vec3 off = e.origin + e.direction * (dot(center - e.origin, e.direction)) - center;
+        const auto cell = [&](float x) { return size_t(std::clamp(int((x / radius + 1) / 2 * cells), 0, cells - 1)); };
+        ++counts[cell(off.x) * cells + cell(off.z)];
+    }
+    EXPECT_TRUE(chi_squared_test(counts, expected));
+}
+
+TEST(LightPathEmission, OfTheEnvironmentFollowsItsDensity) {
+    Scene scene = one_ball();
+    std::vector<Vec3> texels;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            texels.push_back(Vec3{1, 1, 1} * (0.2f + (x > 20 && y < 5 ? 6.f : 0.f) + 0.05f * float((x * 7 + y * 3) % 11)));
+    scene.environment.kind = Environment::Kind::image;
+    scene.environment.image = float_image(32, 16, texels);
+    const Compiled compiled(scene);
+    const SceneTables& tables = compiled.scene.tables();
+    ASSERT_TRUE(tables.lights.samples_environment);
+    EXPECT_TRUE(emission_follows(compiled, [&](const Vec3& away) { return environment_pdf<float>(tables.environment, -away); }));
 }
 
 std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settings, float share, int images, uint32_t first_seed) {
