@@ -4,6 +4,7 @@
 #include "render/compile/expanded_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/diagnostics/fault_finder.h"
+#include "render/diagnostics/light_path_replay.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/pilots/learned_sampling.h"
@@ -72,6 +73,18 @@ struct Logger {
         line("  normal     {} geometric, {} shading", rgb(s.ng), rgb(s.ns));
     }
 
+    void light_path(const ReplayedLightPath& path) {
+        const EmittedPath& e = path.emitted;
+        line("light path {}", e.index);
+        line("  leaves     {} towards {}  flux {}", e.infinite ? "the background" : "at " + point(e.light_position, compiled.origin()),
+             rgb(e.direction), rgb(e.flux));
+        for (size_t k = 0; k < path.vertices.size(); ++k) {
+            const ReplayedLightVertex& v = path.vertices[k];
+            vertex(int(k), v.path, v.hit);
+            if (has_light<float>(v.light)) line("  camera     receives {} in this pixel", rgb(v.light));
+        }
+    }
+
     // Panes and blended surfaces dim the light.
     static std::string visibility(const Step<float>& step, const Vec3& reached) {
         if (!has_light<float>(reached)) return "occluded";
@@ -83,10 +96,14 @@ struct Logger {
         const Step<float>& step = vertex.step;
         const StepWeights<float>& w = step.weights;
         if (has_light<float>(vertex.past)) line("  background contributes {} past blended surfaces", rgb(vertex.past));
-        if (step.emits) line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
+        if (has_light<float>(vertex.shared))
+            line("  emission   {}, if manifold sampling does not find the same light", rgb(vertex.shared));
+        else if (step.emits)
+            line("  emission   contributes {}  MIS weight {:.6g}", rgb(step.emitted), w.emission);
         if (step.connects)
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
                  visibility(step, vertex.arrived), step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
+        if (has_light<float>(vertex.chains)) line("  chains     contribute {} by manifold sampling", rgb(vertex.chains));
         const bool roulette = vertex.bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1) line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.non_finite) {
@@ -124,18 +141,28 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     if (!scratches[0]) scratches[0] = std::make_unique<TileScratch>();
     TileScratch& scratch = *scratches[0];
     workers.run([&] {
-        const Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, scratch, [&](const ReplayedVertex& vertex) {
+        Vec3 radiance = replay_sample(context, x, y, sample, max_log_vertices, scratch, [&](const ReplayedVertex& vertex) {
             log.vertex(vertex.bounce, vertex.path, vertex.hit);
             log.outcome(vertex);
             return true;
         });
-        if (settings.reuse == reuse_auto)
+        if (!tables.emission.empty()) {
+            const Kernel& with_light_paths = kernel_like(kernel, kernel.features.with(Feature::light_paths));
+            const PixelLightPaths found = replay_light_paths(context, with_light_paths, learned.light_paths().emission(),
+                                                             learned.light_paths().paths(), sample, x, y, scratch);
+            log.line("light paths: {} connections of {} light paths contribute {} to this pixel", found.connections,
+                     learned.light_paths().paths(), rgb(found.light));
+            for (const ReplayedLightPath& path : found.brightest) log.light_path(path);
+            radiance = radiance + found.light;
+        }
+        if (learned.excludes_reuse())
+            log.line("path reuse: not with light paths or manifold sampling");
+        else if (settings.reuse == reuse_auto)
             log.line("path reuse: chosen for each image; where it is used, the film shares the light of this path; alone it is worth");
         else if (settings.reuse > 1)
             log.line("path reuse: the film shares the light of this path among {} pixels and adds shares of their light; alone this path "
                      "is worth",
                      settings.reuse);
-        if (!tables.emission.empty()) log.line("light paths: the film adds their light; it is missing here, and the MIS weights know it");
         if (settings.smooth_edges)
             log.line("smooth edges: in a pixel at the edge of an emitter the film takes more camera rays for emission; alone this path is "
                      "worth");

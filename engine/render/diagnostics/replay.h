@@ -1,22 +1,25 @@
 // Traces one sample again, vertex by vertex, using the kernels' own stages with one lane. A sample is a function of scene,
-// settings, pixel, index and seed, so this reproduces what the film received (with path reuse, before sharing).
+// settings, pixel, index and seed, so this reproduces what the film received (with path reuse, before sharing; without light paths, which
+// light_path_replay.h has).
 #pragma once
 
 #include "render/integrator/wavefront.h"
 #include "scene/affine.h"
 
+#include <memory>
 #include <utility>
 
 namespace blush {
 
 // A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded. `past`:
-// of the background behind blended surfaces, one of which stopped the path.
+// of the background behind blended surfaces, one of which stopped the path. `chains`: of manifold sampling at this vertex, and of emission
+// that it shares (`shared`), which is not in `step`.
 struct ReplayedVertex {
     int bounce = 0;
     Path<float> path;
     Hit<float> hit;
     Step<float> step;
-    Vec3 arrived, past{0, 0, 0};
+    Vec3 arrived, past{0, 0, 0}, shared{0, 0, 0}, chains{0, 0, 0};
 };
 
 // Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
@@ -28,6 +31,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
     const auto radiance = [&] { return Vec3d{scratch.r[0], scratch.g[0], scratch.b[0]}; };
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
+    if (samples_manifolds<s>(*context.scene)) scratch.manifolds = std::make_unique<ManifoldColumns>();
     for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
         trace_paths<s, float>(context, scratch, *now, *next, bounce);
         Path<float> path = load_path<s, float>(*now, 0);
@@ -38,10 +42,20 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         const SeenBackground<float> background = seen_background<float>(*context.scene, scratch, 0, true);
         vertex.past = light_past_blended<s, float>(context, vertex.path, bounce, background);
         if (background.seen && !background.stopped) vertex.step.emitted = vertex.step.emitted * background.share;
+        const bool chains = samples_manifolds<s>(*context.scene);
+        if (chains) {
+            auto& hits = scratch.manifolds->hits;
+            take_chain_hits<s, float>(*context.scene, hits, vertex.path, vertex.hit, bounce, true, vertex.step);
+            if (hits.size > 0) vertex.shared = {hits.emitted.x[0], hits.emitted.y[0], hits.emitted.z[0]};
+            hits.size = 0; // shade_paths() takes them again
+        }
         shade_paths<s, float>(context, scratch, *now, *next, bounce);
         const Vec3d before = radiance();
         connect_paths<s, float>(context, scratch, bounce);
-        vertex.arrived = to_float(radiance() - before);
+        const Vec3d connected = radiance();
+        vertex.arrived = to_float(connected - before);
+        if (chains) sample_manifolds<s, float>(context, scratch, *now, bounce);
+        vertex.chains = to_float(radiance() - connected);
         if (!visit(vertex)) break;
         std::swap(now, next);
     }

@@ -45,6 +45,38 @@ TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
     EXPECT_GT(lit, 5);
 }
 
+// Light paths and manifold sampling are replayed, too.
+TEST(PathLog, MatchesTheFilmOnCaustics) {
+    constexpr int width = 32, height = 20;
+    constexpr int64_t sample = 5;
+    int by_light_paths = 0, by_chains = 0;
+    for (const char* name : {"pool", "bulb", "metal-ring"}) {
+        const Scene scene = shipped_scene(name);
+        RenderSettings settings;
+        settings.width = width;
+        settings.height = height;
+        settings.seed = 7;
+        Renderer renderer;
+        renderer.update(scene, settings);
+        ASSERT_TRUE(renderer.render(sample, 1));
+        const Frame frame = renderer.resolve();
+        for (int k = 0; k < 12; ++k) {
+            const int x = 3 + 7 * k % 26, y = 2 + 5 * k % 17;
+            Vec3 logged;
+            const std::string log = trace_sample(scene, settings, x, y, sample);
+            ASSERT_TRUE(read_radiance(log, logged)) << log;
+            const float* film = &frame.rgba[4 * (size_t(y) * width + size_t(x))];
+            EXPECT_NEAR(logged.x, film[0], 1e-5f * film[0]) << name << "\n" << log;
+            EXPECT_NEAR(logged.y, film[1], 1e-5f * film[1]) << name << "\n" << log;
+            EXPECT_NEAR(logged.z, film[2], 1e-5f * film[2]) << name << "\n" << log;
+            by_light_paths += log.find("  camera     receives") != std::string::npos;
+            by_chains += log.find("by manifold sampling") != std::string::npos;
+        }
+    }
+    EXPECT_GT(by_light_paths, 5);
+    EXPECT_GT(by_chains, 3);
+}
+
 TEST(PathLog, SaysHowMuchLightBlendedSurfacesLeave) {
     Scene scene;
     place(scene, floor_quad(2), lambert(0.5f));
