@@ -3,6 +3,7 @@
 #include "render/integrator/light_paths.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace blush {
@@ -28,7 +29,7 @@ ReplayedLightPath replay_light_path(const KernelContext& context, const EmittedP
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     begin_light_paths(columns, *now);
     int queue = 0;
-    for (int bounce = 0; now->size > 0 && bounce < std::min(context.settings.max_bounces, max_path_length); ++bounce) {
+    for (int bounce = 0; now->size > 0 && bounce < context.settings.max_bounces && bounce <= max_path_length; ++bounce) {
         const RayArrays rays{now->ox, now->oy, now->oz, now->dx, now->dy, now->dz, nullptr, nullptr, other_ray_mask};
         HitColumns& h = scratch.hits;
         trace_closest<float>(*context.accel, rays, 1, false, HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});

@@ -16,6 +16,15 @@ bool read_radiance(const std::string& log, Vec3& radiance) {
     return at != std::string::npos && std::sscanf(log.c_str() + at, "radiance (%f, %f, %f)", &radiance.x, &radiance.y, &radiance.z) == 3;
 }
 
+// `tolerance`: relative; six digits are printed.
+void expect_radiance(const std::string& log, const float* film, float tolerance, const std::string& name) {
+    Vec3 logged;
+    ASSERT_TRUE(read_radiance(log, logged)) << log;
+    EXPECT_NEAR(logged.x, film[0], tolerance * film[0]) << name << "\n" << log;
+    EXPECT_NEAR(logged.y, film[1], tolerance * film[1]) << name << "\n" << log;
+    EXPECT_NEAR(logged.z, film[2], tolerance * film[2]) << name << "\n" << log;
+}
+
 TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
     constexpr int width = 16, height = 12;
     constexpr int64_t sample = 5;
@@ -31,14 +40,9 @@ TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
         ASSERT_TRUE(renderer.render(sample, 1));
         const Frame frame = renderer.resolve();
         for (const auto& [x, y] : {std::pair{8, 6}, {3, 9}, {12, 4}}) {
-            Vec3 logged;
             const std::string log = trace_sample(scene, settings, x, y, sample);
-            ASSERT_TRUE(read_radiance(log, logged)) << log;
             const float* film = &frame.rgba[4 * (size_t(y) * width + size_t(x))];
-            // Six digits are printed.
-            EXPECT_NEAR(logged.x, film[0], 5e-6f * film[0]) << name << "\n" << log;
-            EXPECT_NEAR(logged.y, film[1], 5e-6f * film[1]) << name << "\n" << log;
-            EXPECT_NEAR(logged.z, film[2], 5e-6f * film[2]) << name << "\n" << log;
+            expect_radiance(log, film, 5e-6f, name);
             lit += film[0] > 0 && log.find("MIS weight") != std::string::npos;
         }
     }
@@ -62,13 +66,9 @@ TEST(PathLog, MatchesTheFilmOnCaustics) {
         const Frame frame = renderer.resolve();
         for (int k = 0; k < 12; ++k) {
             const int x = 3 + 7 * k % 26, y = 2 + 5 * k % 17;
-            Vec3 logged;
             const std::string log = trace_sample(scene, settings, x, y, sample);
-            ASSERT_TRUE(read_radiance(log, logged)) << log;
             const float* film = &frame.rgba[4 * (size_t(y) * width + size_t(x))];
-            EXPECT_NEAR(logged.x, film[0], 1e-5f * film[0]) << name << "\n" << log;
-            EXPECT_NEAR(logged.y, film[1], 1e-5f * film[1]) << name << "\n" << log;
-            EXPECT_NEAR(logged.z, film[2], 1e-5f * film[2]) << name << "\n" << log;
+            expect_radiance(log, film, 1e-5f, name);
             by_light_paths += log.find("  camera     receives") != std::string::npos;
             by_chains += log.find("by manifold sampling") != std::string::npos;
         }
