@@ -66,6 +66,7 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     edges = EdgeChoice(settings, scene, transparent());
     LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
     if (outdated != Outdated::film) learned.keep_from(before);
+    highlights.reset();
     info.reset();
     kernel_name = name_of(*kernel);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -212,6 +213,7 @@ ErrorEstimate Renderer::estimate_error() {
         error.known = error.known && error.high > 0;
         error.rmse_known = error.rmse_known && error.rmse_high > 0;
     }
+    if (s.highlights) exclude_small_highlights(error, *s.highlights, double(s.samples), s.film.width(), s.film.height());
     return error;
 }
 
@@ -231,6 +233,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.shares = s.sample_allocation.shares();
     if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
     state.reuse_pilot = s.reuse.pilot();
+    state.highlights = s.highlights;
     state.rays = s.rays;
     state.path_counts = s.path_counts;
     state.truncated = s.truncated;
@@ -261,6 +264,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
     });
     if (marked) s.pilot_variance.restore(state.marked);
     if (state.reuse_pilot) s.reuse.decide(*state.reuse_pilot);
+    if (state.highlights) s.highlights = state.highlights;
     s.first_is_rough = state.first_sample == 0 && state.samples == 1;
     s.samples = state.samples;
     s.rays = state.rays;

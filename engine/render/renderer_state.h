@@ -5,6 +5,7 @@
 #include "core/ticks.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
+#include "render/error/small_highlights.h"
 #include "render/film/edge_samples.h"
 #include "render/film/film.h"
 #include "render/film/film_columns.h"
@@ -49,6 +50,7 @@ struct Renderer::State {
     ReuseChoice reuse; // of the scene and settings
     EdgeChoice edges;  // likewise, as the next
     LearnedSampling learned;
+    std::optional<SmallHighlights> highlights;         // of the scene and settings; empty: not searched for
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
     bool splats = false;                               // the film holds those of light paths
@@ -171,6 +173,7 @@ struct Renderer::State {
     void refine_first_sample(const EdgePixels& pixels);
     bool renew_first_sample(const Wanted& wanted);
     bool decide(const Wanted& wanted);
+    bool needs_highlights() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     void collect_counts(const TickRate& rate);
 

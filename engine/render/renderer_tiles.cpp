@@ -4,6 +4,7 @@
 #include "render/integrator/reuse_groups.h"
 #include "render/kernels/stage_timer.h"
 #include "render/pilots/edge_pilot.h"
+#include "render/pilots/highlight_pilot.h"
 #include "render/pilots/reuse_pilot.h"
 #include "render/renderer_state.h"
 
@@ -162,7 +163,7 @@ bool Renderer::State::renew_first_sample(const Wanted& wanted) {
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(const Wanted& wanted) {
     const auto may_reuse = [&] { return reuse.needs_pilot() && !learned.excludes_reuse(); };
-    if (!learned.needs_pilot() && !may_reuse() && !edges.needs_pilot()) return true;
+    if (!learned.needs_pilot() && !may_reuse() && !edges.needs_pilot() && !needs_highlights()) return true;
     SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);
     if (!learned.decide(context, *kernel, workers, replays, wanted)) return false;
@@ -177,11 +178,18 @@ bool Renderer::State::decide(const Wanted& wanted) {
         if (!found) return false;
         edges.decide(*std::move(found));
     }
+    if (needs_highlights()) {
+        highlights = find_small_highlights(context, workers, replays, wanted);
+        if (!highlights) return false;
+    }
     kernel_name = name_of(kernel_for(tables));
     info.reset();
     feature_report.reset();
     return true;
 }
+
+// Only where lamps with a size may be seen in smooth surfaces.
+bool Renderer::State::needs_highlights() const { return !highlights && scene.has_smooth_surfaces() && scene.tables().lights.count > 0; }
 
 bool Renderer::decide(const std::function<bool()>& wanted) { return state_->decide(wanted); }
 

@@ -91,6 +91,11 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
 
 Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
+    if (e.misses_highlights)
+        return {12, "error: highlights missing?",
+                "Lamps in mirrors or glass make highlights that are too small for the samples so far. Some may be missing from the image, "
+                "so its error is not known. More samples or a larger image find them.",
+                tone::text, 8};
     if (!e.known) return {9, "error not known yet", "Not enough samples yet to estimate the error.", tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the image as it was after {} samples per pixel", frame.error_samples) : "the image";

@@ -93,6 +93,22 @@ bool read_mix(const Json& json, std::vector<FilmState::MixedGroup>& mix) {
     });
 }
 
+bool read_highlights(const Json& json, SmallHighlights& highlights) {
+    struct Saved {
+        size_t band = 0;
+        SmallHighlights::Band of;
+    };
+    std::vector<Saved> bands;
+    const auto is_size = [](double v) { return std::isfinite(v) && v >= 0; };
+    const bool read = read_list(json, highlights.bands.size(), bands, [&](const Json& item, Saved& s) {
+        Vec3d& sum = s.of.sum;
+        return read_numbers(item, s.band, s.of.rate, sum.x, sum.y, sum.z) && s.band < highlights.bands.size() && is_size(s.of.rate) &&
+               is_size(sum.x) && is_size(sum.y) && is_size(sum.z);
+    });
+    for (const Saved& s : bands) highlights.bands[s.band] = s.of;
+    return read;
+}
+
 // Extracts the planes that are not part of the film itself.
 void take_health_map(FilmState& film, size_t pixels) {
     if (const LosslessPlane* dropped = film.find(dropped_plane)) film.health.dropped_map = dropped->words;
@@ -126,7 +142,7 @@ std::vector<LosslessPlane> planes_in_file(const FilmState& film) {
 }
 
 std::string film_json(const FilmState& film) {
-    Json paths = Json::array();
+    Json paths = Json::array(), highlights = Json::array();
     for (const PathCounts& c : film.path_counts) paths.push_back({c.alive, c.rr_applied, c.survived});
     Json json{{"first_sample", film.first_sample},
               {"samples", film.samples},
@@ -139,6 +155,10 @@ std::string film_json(const FilmState& film) {
     if (!film.shares[0].empty()) json["shares"] = {film.shares[0], film.shares[1]};
     if (film_size(film).light_paths) json["passes"] = {film.passes[0], film.passes[1]};
     if (const auto& p = film.reuse_pilot) json["reuse_pilot"] = {p->mse, p->relmse, p->typical, p->work, p->group_size};
+    if (film.highlights)
+        for (size_t k = 0; k < film.highlights->bands.size(); ++k)
+            if (const auto& [rate, sum] = film.highlights->bands[k]; rate > 0) highlights.push_back({k, rate, sum.x, sum.y, sum.z});
+    if (film.highlights) json["highlights"] = std::move(highlights);
     return json_text(json);
 }
 
@@ -173,6 +193,8 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
             std::ranges::find(automatic_group_sizes, p.group_size) == automatic_group_sizes.end())
             return bad("reuse_pilot");
     }
+    if (const Json& bands = member(*json, "highlights"); !bands.is_null() && !read_highlights(bands, film.highlights.emplace()))
+        return bad("highlights");
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
     film.planes = lossless_planes(image, "film");
     // Without any pass the splats would be left out of the image.

@@ -183,6 +183,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"rmse", if_known(error.rmse_known, error.rmse)},
                      {"rmse_low", if_known(error.rmse_known, error.rmse_low)},
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)},
+                     {"misses_highlights", error.misses_highlights},
                      {"missing_light", if_known(!r.frame.missing_light.empty(), r.frame.missing_light)}};
     json["health"] = health_json(r.frame.health);
     json["warnings"] = OrderedJson::array();
@@ -208,6 +209,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     const ErrorEstimate& e = r.frame.error;
     if (e.known) fmt::print(", estimated relMSE {:.2g} ({:.2g} to {:.2g})", e.relmse, e.low, e.high);
     if (e.rmse_known) fmt::print(", RMSE {:.2g} ({:.2g} to {:.2g})", e.rmse, e.rmse_low, e.rmse_high);
+    if (e.misses_highlights) fmt::print(", error not known: small highlights of lamps may be missing");
     if (!r.frame.missing_light.empty()) fmt::print(", some light cannot be found");
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");

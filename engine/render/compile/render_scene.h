@@ -53,6 +53,8 @@ public:
     bool has_light() const { return lights_.count > 0 || lights_.emissive_triangles > 0 || lights_.environment >= 0; }
     // True if some surface may be Lambertian, as path reuse needs it.
     bool may_be_lambertian() const { return used_.lambertian; }
+    // True if delta lobes may show lamps.
+    bool has_smooth_surfaces() const { return used_.smooth.mirror || used_.smooth.glass; }
     // Contains all surfaces; relative to origin().
     CasterSphere bounding_sphere() const;
     // True if a camera ray may end at something that emits light, or is unlit.

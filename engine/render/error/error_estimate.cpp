@@ -63,4 +63,10 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     return e;
 }
 
+void exclude_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height) {
+    const int64_t pixels = int64_t(width) * height;
+    error.misses_highlights = highlights.may_be_missed(samples, pixels, square_of(error.rmse) * 3 * double(pixels));
+    if (error.misses_highlights) error.known = error.rmse_known = false;
+}
+
 } // namespace blush

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/error/error_sums.h"
+#include "render/error/small_highlights.h"
 #include "render/frame.h"
 
 namespace blush {
@@ -31,5 +32,9 @@ namespace blush {
 //
 // `sharing`: variance of the sums of products relative to independent pixels (path reuse correlates pixels).
 ErrorEstimate estimate_error(const ErrorSums& sums, double sharing = 1);
+
+// Makes the error unknown if small highlights, which both halves may have missed, may be a large part of it. `samples`: per pixel of an
+// image of this size.
+void exclude_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height);
 
 } // namespace blush

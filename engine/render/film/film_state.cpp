@@ -179,6 +179,7 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.health.truncated = state.truncated;
     // Images with light paths have no path reuse.
     frame.error = estimate_error(film, film_size(state).light_paths ? 1 : reuse_group_size(settings, state.reuse_pilot), workers);
+    if (state.highlights) exclude_small_highlights(frame.error, *state.highlights, double(state.samples), state.width, state.height);
     frame.error_samples = frame.samples;
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();
@@ -201,6 +202,7 @@ Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const Rend
     sum.truncated = a.truncated + b.truncated;
     sum.mix = a.mix;
     sum.reuse_pilot = a.reuse_pilot ? a.reuse_pilot : b.reuse_pilot;
+    sum.highlights = a.highlights ? a.highlights : b.highlights;
     sum.path_counts = a.path_counts;
     sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
     for (size_t k = 0; k < b.path_counts.size(); ++k) sum.path_counts[k] += b.path_counts[k];

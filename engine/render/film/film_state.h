@@ -3,6 +3,7 @@
 
 #include "core/lossless_plane.h"
 #include "core/result.h"
+#include "render/error/small_highlights.h"
 #include "render/film/film.h"
 #include "render/frame.h"
 
@@ -28,6 +29,7 @@ struct FilmState {
     std::array<int64_t, 2> passes{};           // of light paths, in the even and odd half; 0 without light paths
     std::vector<Vec3d> marked;                 // PilotVariance's, in the second half of the pilot of adaptive sampling
     std::optional<PilotFigures> reuse_pilot;   // ReuseChoice's, if a pilot has decided
+    std::optional<SmallHighlights> highlights; // if a pilot has searched for them
     RayCounts rays;
     std::vector<PathCounts> path_counts;
     int64_t truncated = 0;

@@ -293,7 +293,7 @@ TEST(Render, JsonHasTheKeysOfTheContract) {
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(test::keys_of(json["rays"]), (std::vector<std::string>{"bounce", "camera", "shadow"}));
     EXPECT_EQ(test::keys_of(json["error"]),
-              (std::vector<std::string>{"high", "low", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
+              (std::vector<std::string>{"high", "low", "misses_highlights", "missing_light", "relmse", "rmse", "rmse_high", "rmse_low"}));
     EXPECT_EQ(test::keys_of(json["health"]),
               (std::vector<std::string>{"faults", "fireflies", "first", "inf", "nan", "negative", "truncated"}));
     EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name", "pilots"}));

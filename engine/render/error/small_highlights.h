@@ -1,0 +1,34 @@
+// Highlights of lamps in smooth surfaces that may be too small for the samples so far: an error estimate cannot know them.
+#pragma once
+
+#include "core/vec.h"
+
+#include <array>
+#include <cstdint>
+
+namespace blush {
+
+// Camera paths that only smooth surfaces turn meet a lamp by chance, and no other strategy finds that light. A highlight that covers a
+// thousandth of a pixel is missing from most images, and from both halves of the samples alike, so that their difference does not show
+// it. A pilot (highlight_pilot.h) therefore estimates how often a camera sample meets such light, and how much it adds.
+struct SmallHighlights {
+    // Light of about the same brightness.
+    struct Band {
+        double rate = 0;    // camera samples that meet it, per sample
+        Vec3d sum{0, 0, 0}; // what it adds to the mean of the image, nits
+        bool operator==(const Band&) const = default;
+    };
+    static constexpr int first_octave = -16, num_bands = 64; // a band an octave
+    std::array<Band, num_bands> bands;
+
+    // The band of light that adds this luminance to a sample, nits.
+    Band& of(double luminance);
+    bool operator==(const SmallHighlights&) const = default;
+
+    // True if highlights that the samples of an image have hardly met may be a large part of its squared error. `samples`: per pixel;
+    // `squares`: estimated sum of the squared errors of pixels and channels. A band is hardly met if fewer than 20 samples are expected
+    // to; its light is taken to lie in as many pixels as it covers, or in one.
+    bool may_be_missed(double samples, int64_t pixels, double squares) const;
+};
+
+} // namespace blush
