@@ -20,15 +20,19 @@ template <class F> F clearcoat_reflectance(const F& clearcoat, const F& cos) {
 // Transmittance of the coat for the surface's own emission. Uses the geometric normal, so that NEE and emission hits agree.
 template <class F> F through_clearcoat(const F& clearcoat, const F& cos) { return 1.f - clearcoat_reflectance(clearcoat, cos); }
 
+// The coat's normal in the viewer's frame, or z if it does not face the viewer. `wo`: as upper_wo. For a viewer inside, it is flipped.
+template <class F> Vec<F> facing_coat_normal(const LayerParams<F>& m, const Mask<F>& flipped, const Vec<F>& wo) {
+    const Vec<F>&n = m.clearcoat_normal, z{F(0.f), F(0.f), F(1.f)};
+    const Vec<F> towards{select(flipped, -n.x, n.x), select(flipped, -n.y, n.y), n.z};
+    return select<F>(dot(towards, wo) > F(min_facing), towards, z);
+}
+
 // Sets everything except the probability.
 template <Features S, class F>
 Clearcoat<F> make_clearcoat(const Bsdf<F>& b, const LayerParams<F>& m, const Vec<F>& wo_surface, const EnergyTable* energy) {
     Clearcoat<F> coat;
-    const Vec<F> wo = upper_wo(b, wo_surface), z{F(0.f), F(0.f), F(1.f)};
-    // For a viewer inside, flips the coat's normal.
-    const Vec<F>& n = m.clearcoat_normal;
-    const Vec<F> towards{select(b.flipped, -n.x, n.x), select(b.flipped, -n.y, n.y), n.z};
-    coat.frame = basis_around(select<F>(dot(towards, wo) > F(min_facing), towards, z));
+    const Vec<F> wo = upper_wo(b, wo_surface);
+    coat.frame = basis_around(facing_coat_normal(m, b.flipped, wo));
     coat.wo = coat.frame.to_local(wo);
     coat.wo.z = max(coat.wo.z, F(grazing));
     coat.reflected = clearcoat_reflectance(m.clearcoat, coat.wo.z);

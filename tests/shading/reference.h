@@ -201,6 +201,25 @@ inline Vec3d f_cos(const Params& p, const Vec3d& wo, const Vec3d& wi) {
     return coat_over(sheen_over(f_cos_of_base(p, o, i), p, o, i), p, o, i);
 }
 
+// Relative bound of the rounding error of f_cos: that of some dozen operations, and that of the facet normal, which moves when the two
+// directions are rounded. The latter is multiplied by the relative slope of the facet distribution (at most 4 / alpha) and of the cosines
+// between facet and directions. Near the critical angle, the transmitted light varies like the root of (eta cos)^2.
+inline double relative_bound(const Params& p, const Vec3& wo, const Vec3& wi) {
+    const float min_roughness =
+        p.layers.clearcoat > 0 ? std::min(p.roughness, std::max(p.layers.clearcoat_roughness, smooth_roughness)) : p.roughness;
+    const double alpha = std::max(sqr(min_roughness), 1e-4);
+    const double eta = wo.z < 0 ? 1 / p.ior : p.ior;
+    const bool through = wo.z * wi.z < 0;
+    const Vec3d a = to_double(wo), b = to_double(wi);
+    const Vec3d sum = a + (!through ? b : p.thin ? Vec3d{b.x, b.y, -b.z} : b * eta);
+    const double span = length(sum), cosine = std::min(std::abs(dot(a, sum)), std::abs(dot(b, sum))) / span;
+    const double refraction = through && !p.thin ? 1 / sqr(eta * cosine) : 0;
+    // For diffuse transmission: the cosine at the facet that would reflect wo to the mirrored wi.
+    const double mirrored = 0.5 + 0.5 * dot(a, Vec3d{b.x, b.y, through ? -b.z : b.z});
+    const double crossing = p.layers.diffuse_transmission > 0 && !p.thin ? 1 / std::max(std::abs(eta * eta - 1 + mirrored), 1e-6) : 0;
+    return statistics::float_rounding * (1 + (4 / alpha + 4 / cosine) / span + refraction + crossing);
+}
+
 // A facet normal on a grid over (0, 1)^2 that is fine where the GGX distribution is narrow, and its solid angle per unit.
 struct FacetPoint {
     Vec3d h;

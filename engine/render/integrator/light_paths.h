@@ -5,6 +5,7 @@
 #include "render/integrator/path_queues.h"
 #include "render/integrator/scatter_stages.h"
 #include "render/integrator/splat_pixel.h"
+#include "shading/adjoint.h"
 
 #include <algorithm>
 #include <utility>
@@ -72,7 +73,7 @@ template <class F> struct LightVertex {
     F cosine;                       // between wo and the geometric normal, > 0
     Vec<F> beta;
     F hit_ratio, nee_ratio; // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
-    Mask<F> scatters, solid;
+    Mask<F> scatters;
     Mask<F> dispersed; // the path carries a single wavelength
 };
 
@@ -169,10 +170,8 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
         hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
         nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
     }
-    // Refraction does not change flux, only radiance.
-    const Mask<F> crosses = v.solid && (s.wi.z > F(0.f)) != (v.shading.wo.z > F(0.f));
-    const F tilt = cosine * abs(v.shading.wo.z) / (v.cosine * max(abs(s.wi.z), F(1e-6f)));
-    beta = select<F>(dense, beta, s.weight * select(crosses, tilt / v.bsdf.radiance_scale, tilt)) * v.beta;
+    const F tilt = cosine / v.cosine * delta_adjoint<S, F>(v.bsdf, v.material.bsdf.layers, v.shading.wo, s.wi, choice.x());
+    beta = select<F>(dense, beta, s.weight * tilt) * v.beta;
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
@@ -219,8 +218,8 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         const Mask<F> scatters = met && !material.unlit;
         const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
         const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
-        LightVertex<F> v{surface, material, shading, bsdf,     side.wo,    clamped_cosine<F>(shading.ng, side.wo),
-                         beta,    F(0.f),   F(0.f),  scatters, side.solid, dispersed};
+        LightVertex<F> v{surface, material, shading, bsdf,     side.wo,  clamped_cosine<F>(shading.ng, side.wo),
+                         beta,    F(0.f),   F(0.f),  scatters, dispersed};
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(bsdf);
             if (!any(v.scatters)) continue;

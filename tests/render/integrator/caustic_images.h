@@ -22,9 +22,9 @@ inline Light caustic_light(Light::Kind kind, float intensity, float radius = 0) 
     return light;
 }
 
-// Blocks of the image: means over independent images, as one light path adds to many pixels. Calls check(renderer) for each.
-template <class Check> std::vector<Measured> image_blocks(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
-                                                          int images, uint32_t first_seed, const Check& check) {
+// Regions of w x h pixels: means over independent images, as one light path adds to many pixels. Calls check(renderer) for each.
+template <class Check> std::vector<Measured> image_regions(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
+                                                           int images, uint32_t first_seed, int w, int h, const Check& check) {
     using statistics::Moments;
     std::vector<std::array<Moments, 3>> moments;
     for (int k = 0; k < images; ++k) {
@@ -33,7 +33,7 @@ template <class Check> std::vector<Measured> image_blocks(const Scene& scene, Re
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
         check(renderer);
-        const auto blocks = image_of(renderer).blocks(settings.width / 3, settings.height / 3);
+        const auto blocks = image_of(renderer).blocks(w, h);
         moments.resize(blocks.size());
         for (size_t i = 0; i < blocks.size(); ++i) {
             moments[i][0].add(blocks[i].mean.x);
@@ -44,6 +44,13 @@ template <class Check> std::vector<Measured> image_blocks(const Scene& scene, Re
     std::vector<Measured> measured;
     for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
     return measured;
+}
+
+// Nine blocks of the image.
+template <class Check> std::vector<Measured> image_blocks(const Scene& scene, const RenderSettings& settings,
+                                                          const CausticOptions& strategies, int images, uint32_t first_seed,
+                                                          const Check& check) {
+    return image_regions(scene, settings, strategies, images, first_seed, settings.width / 3, settings.height / 3, check);
 }
 
 // The same; expects the feature of this name to be used or not.
