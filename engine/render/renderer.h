@@ -29,6 +29,9 @@ struct RendererOptions {
     PlaneSet planes = {};
     bool filter_textures = true; // false: to measure the effect of filtering
     CausticOptions caustics = {};
+    // The first sample uses the field of path guiding that an edit left over, until the pilots have run (kept_field.h).
+    // It then depends on earlier edits; what follows does not, nor what save_film() gives.
+    bool begins_trained = false;
 };
 
 // World-space position of a light meter, lit from the side of its normal.
@@ -72,6 +75,8 @@ public:
     // average (sample_allocation.h), whatever `first`. Where the pilots gain much, the first sample of a film is rendered again with the
     // second (LearnedSampling::renews_first).
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
+    // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
+    bool settle_first_sample(const std::function<bool()>& wanted = {});
     void clear();
     // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path guiding
     // (learned_sampling.h), path reuse and smooth edges (reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
@@ -100,7 +105,7 @@ public:
 
     // Saves the film exactly: another renderer of the same scene and settings continues as if it
     // had rendered it. `first` is the index of its first sample. Errors: nothing is rendered,
-    // rendering was stopped in the middle of a sample, the film is not at full resolution.
+    // rendering was stopped in the middle of a sample, the film is not at full resolution, its first sample is not settled.
     Result<FilmState> save_film(int64_t first) const;
     // Replaces the film, at full size; continue with sample first_sample + samples. Errors: it does not fit the settings or lacks
     // a plane; the film is then empty.

@@ -50,6 +50,10 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
     mixing = groups ? mixing_of(*groups, whole, {}).value() : Mixing{};
     Film::require_memory({now.width, now.height, options.planes, false, now.adaptive, int(mixing.gains.size())});
     scene.update(now_expanded, now, todo, workers, groups.get());
+    field_effect = {};
+    field_effect.dropped = true;
+    if (changes && options.begins_trained && learned.has_field())
+        field_effect = effect_on_field(*expanded, now_expanded, *changes, scene.tables().guides.casters, scene.origin());
     if (!changes || !keeps_first_hits(*expanded, now_expanded, *changes)) first_hits.reset();
     if (groups) scene.aim(mixing.gains);
     expanded = std::move(now_expanded);
@@ -64,12 +68,17 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     splats = false;
     reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
-    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
-    if (outdated != Outdated::film) learned.keep_from(before);
+    begin_learning(field_effect, outdated != Outdated::film);
     highlights.reset();
     info.reset();
     kernel_name = name_of(*kernel);
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
+}
+
+void Renderer::State::begin_learning(const FieldEffect& effect, bool same_photons) {
+    LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
+    if (same_photons) learned.keep_from(before);
+    if (options.begins_trained) learned.keep_field(std::move(before), effect, scene.origin());
 }
 
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
@@ -95,7 +104,7 @@ void Renderer::select_lights_by_mix() {
     State& s = *state_;
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
-    s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.caustics);
+    s.begin_learning({}, false);
 }
 
 void Renderer::set_planes(const PlaneSet& planes) {
@@ -108,7 +117,7 @@ void Renderer::set_planes(const PlaneSet& planes) {
     if (!covered) {
         clear();
         s.splats = false;
-        s.learned = LearnedSampling(s.settings, s.scene, s.full_film(), s.options.caustics); // some planes exclude light paths
+        s.begin_learning({}, false); // some planes exclude light paths
     } else if (!s.film_is_stale)
         s.film.keep_only(planes);
 }
@@ -141,7 +150,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, film);
         feature_report.push_back(s.reuse.report());
         feature_report.push_back(s.edges.report());
-        for (FeatureUse& use : s.learned.report()) feature_report.push_back(std::move(use));
+        for (FeatureUse& use : s.learned.report(s.uses_kept_field())) feature_report.push_back(std::move(use));
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;
@@ -222,6 +231,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     if (s.film_is_stale || s.samples == 0) return Error{"", "no samples are rendered yet", ""};
     if (s.film_is_uneven) return Error{"", "rendering was stopped in the middle of a sample", ""};
     if (s.divider != 1) return Error{"", "the image is not yet at full resolution", ""};
+    if (s.first_is_trained) return Error{"", "the first sample is not settled", ""};
     FilmState state = blush::save_film(s.film);
     // A saved film starts with the current emission; mix channels are saved separately.
     if (std::ranges::any_of(s.mixing.factors, [](const Vec3& f) { return f != Vec3{1, 1, 1}; })) scale_groups(state, s.mixing.factors);

@@ -41,6 +41,7 @@ struct Renderer::State {
     RenderScene scene;
     std::optional<Scene> expanded;
     ExpandedMeshes meshes;
+    FieldEffect field_effect; // of the last edit
     RenderSettings settings;
     LightGroupsPtr groups; // null: no light mix
     Mixing mixing;         // of the groups
@@ -53,6 +54,7 @@ struct Renderer::State {
     std::optional<SmallHighlights> highlights;         // of the scene and settings; empty: not searched for
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
+    bool first_is_trained = false;                     // and has only that sample, with a field of before an edit
     bool splats = false;                               // the film holds those of light paths
     bool first_as_others = false;                      // the first sample is rendered as the pilots decide for the others
     int divider = 1;
@@ -84,6 +86,12 @@ struct Renderer::State {
         // Light paths and manifold sampling do not know the densities of path reuse.
         return decided_as(sample) > 0 && learned.excludes_reuse() ? 1 : reuse.group_size(decided_as(sample));
     }
+    // True if the first sample uses the field that an edit left over: the pilots have not run. Coarse images do not: they have so few
+    // samples that the caustic, which most of them miss without, would be noise.
+    bool uses_kept_field() const { return divider == 1 && learned.kept_field(); }
+    SceneTables tables_for(int64_t sample) const {
+        return uses_kept_field() ? learned.kept_tables(scene.tables()) : learned.tables(scene.tables(), decided_as(sample));
+    }
     // The kernel for samples of these tables.
     const Kernel& kernel_for(const SceneTables& tables) const {
         return tables.emission.empty() && tables.manifolds.empty() ? *kernel
@@ -114,6 +122,8 @@ struct Renderer::State {
     Outdated compile(const Scene& whole, const RenderSettings& now, LightGroupsPtr groups_of_scene);
     // Discards the samples; their setup began at `begun`.
     void begin_film(Clock::time_point begun, Outdated outdated);
+    // For a scene, settings or planes that differ from those of `learned` as the effect says.
+    void begin_learning(const FieldEffect& effect, bool same_photons);
 
     bool hides_environment() const {
         const Environment& e = expanded->environment;
@@ -128,7 +138,7 @@ struct Renderer::State {
     void clear() {
         film_is_stale = true;
         film_is_uneven = false;
-        first_is_rough = first_as_others = false;
+        first_is_rough = first_as_others = first_is_trained = false;
         feature_report.reset();
         samples = 0;
         rays = {};
@@ -172,6 +182,7 @@ struct Renderer::State {
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
     void refine_first_sample(const EdgePixels& pixels);
     bool renew_first_sample(const Wanted& wanted);
+    bool render_first_again(const Wanted& wanted);
     bool decide(const Wanted& wanted);
     bool needs_highlights() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);

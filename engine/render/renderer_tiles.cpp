@@ -22,7 +22,7 @@ KernelContext Renderer::State::context_for(const SceneTables& tables, int width,
 }
 
 bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, unsigned worker, const Wanted& wanted) {
-    const SceneTables tables = learned.tables(scene.tables(), decided_as(run.first));
+    const SceneTables tables = tables_for(run.first);
     KernelContext context = context_for(tables, film.width(), film.height());
     context.seed = settings.seed;
     context.settings.reuse = run.groups;
@@ -149,15 +149,29 @@ void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
 
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
-    film_is_stale = true;
     splats = learned.light_paths().pays();
+    first_is_rough = false;
+    first_as_others = true;
+    return render_first_again(wanted);
+}
+
+// Discards the film's only sample.
+bool Renderer::State::render_first_again(const Wanted& wanted) {
+    film_is_stale = true;
     clear_stale_film();
     rays = {};
     path_counts.clear();
     truncated = 0;
-    first_is_rough = false;
-    first_as_others = true;
+    first_is_trained = false;
     return (render_uniformly(0, 1, wanted) && trace_light_paths(0, 1, wanted)) || !(film_is_uneven = true);
+}
+
+bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
+    State& s = *state_;
+    if (!s.first_is_trained) return true;
+    s.learned.drop_field();
+    s.feature_report.reset();
+    return s.render_first_again(wanted);
 }
 
 // Each pilot measures the samples as those before it have decided.
@@ -203,7 +217,8 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.learned.renews_first()) {
             if (begin == 0) s.first_as_others = true;
             if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
-        }
+        } else if (s.first_is_trained && !s.render_first_again(wanted))
+            return false;
     }
     for (int64_t done = 0; done < count;) {
         const int64_t next = begin + done;
@@ -216,7 +231,10 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||
             !s.trace_light_paths(next, step, wanted))
             return !(s.film_is_uneven = true);
-        if (next == 0) s.first_is_rough = s.divider == 1 && !s.first_as_others;
+        if (next == 0) {
+            s.first_is_rough = s.divider == 1 && !s.first_as_others;
+            s.first_is_trained = s.first_is_rough && s.uses_kept_field();
+        }
         s.samples += step;
         done += step;
         if (!s.settings.adaptive) continue;

@@ -47,6 +47,7 @@ Json run_mix(const Options& options);
 Json run_textures(const Options& options);
 Json run_time_slider(const Options& options);
 Json run_image_quality(const Options& options);
+Json run_after_edits(const Options& options);
 Json run_quality(const Options& options);
 
 using Clock = std::chrono::steady_clock;

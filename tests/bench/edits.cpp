@@ -1,6 +1,9 @@
 #include "tests/bench/edits.h"
 
+#include "render/lights/caustic_caster_table.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace blush::bench {
 namespace {
@@ -92,7 +95,78 @@ std::function<void(Scene&, int)> environment_edit(const Scene& scene) {
     };
 }
 
+std::function<void(Scene&, int)> colour_edit(const Scene& scene) {
+    if (const Id<Light> id = a_light(scene))
+        return [id, light = *scene.lights.find(id)](Scene& s, int step) {
+            Light changed = light;
+            changed.color.z /= grown(step);
+            s.lights.set(id, changed);
+        };
+    if (const Id<Material> id = find_if(scene.materials, emits))
+        return [id, material = *scene.materials.find(id)](Scene& s, int step) {
+            Material changed = material;
+            changed.emissive.z /= grown(step);
+            s.materials.set(id, changed);
+        };
+    return {};
+}
+
+// A node with a light or an emitting mesh.
+Id<Node> an_emitter(const Scene& scene) {
+    for (const auto& [id, node] : scene.nodes) {
+        if (!is_visible(scene, id)) continue;
+        if (const Light* light = scene.lights.find(node.light); light && light->enabled) return id;
+        const Mesh* mesh = scene.meshes.find(node.mesh);
+        if (mesh && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
+                const Material* material = scene.materials.find(part.material);
+                return material && emits(*material);
+            }))
+            return id;
+    }
+    return {};
+}
+Id<Node> a_caster(const Scene& scene) {
+    for (const auto& [id, node] : scene.nodes) {
+        const Mesh* mesh = scene.meshes.find(node.mesh);
+        if (mesh && is_visible(scene, id) && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
+                const Material* material = scene.materials.find(part.material);
+                return material && casts_caustics(*material);
+            }))
+            return id;
+    }
+    return {};
+}
+
+// Turns about the axes of the world by a thousandth of a radian, and moves by a thousandth of the scene's radius, a step.
+std::function<void(Scene&, int)> node_edit(const Scene& scene, Id<Node> id, bool turn, double radius) {
+    if (!id) return {};
+    return [id, turn, radius, node = *scene.nodes.find(id)](Scene& s, int step) {
+        Node moved = node;
+        Affined now = to_affine(node.local);
+        if (turn) {
+            const double a = 0.001 * double(step), c = std::cos(a), d = std::sin(a);
+            for (Vec3d* axis : {&now.x, &now.y, &now.z}) *axis = {axis->x, c * axis->y - d * axis->z, d * axis->y + c * axis->z};
+        }
+        now.t.x += 0.001 * double(step) * radius;
+        moved.local = to_transform(now);
+        s.nodes.set(id, moved);
+    };
+}
+
 } // namespace
+
+std::vector<EditKind> edits_after_learning(const Scene& scene) {
+    std::vector<EditKind> kinds{
+        {"light", light_edit(scene)},
+        {"colour", colour_edit(scene)},
+        {"material", material_edit(scene)},
+        {"camera", camera_edit(scene)},
+        {"light moved", node_edit(scene, an_emitter(scene), true, world_bounds(scene).radius())},
+        {"caster moved", node_edit(scene, a_caster(scene), false, a_caster(scene) ? world_bounds(scene, a_caster(scene)).radius() : 1)},
+        {"object", object_edit(scene)}};
+    std::erase_if(kinds, [](const EditKind& kind) { return !kind.apply; });
+    return kinds;
+}
 
 std::vector<EditKind> edits_of(const Scene& scene) {
     std::vector<EditKind> kinds{{"light", light_edit(scene)},

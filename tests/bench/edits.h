@@ -16,5 +16,8 @@ struct EditKind {
 
 // The kinds that the scene supports. If a scene is lit only by surfaces or its environment, those are its light.
 std::vector<EditKind> edits_of(const Scene& scene);
+// Edits after which directions that were learned before may be of use: some of those above, another colour of the light, a light that
+// moves or turns, the move of something that focuses light.
+std::vector<EditKind> edits_after_learning(const Scene& scene);
 
 } // namespace blush::bench

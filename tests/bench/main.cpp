@@ -42,6 +42,8 @@ constexpr Case cases[]{
     {{"time", "Time from a step of the time slider to the first image"}, run_time_slider},
     {{"image_quality", "FLIP and relMSE of raw and denoised images, with and without path reuse and adaptive sampling"}, run_image_quality},
     {{"quality", "FLIP and relMSE of what is on the screen at times after an edit, raw and denoised"}, run_quality},
+    {{"after_edits", "relMSE of what is on the screen at times after an edit, with and without the kept field of path guiding"},
+     run_after_edits},
 };
 
 std::vector<ReportedCase> reported_cases() { return {std::begin(cases), std::end(cases)}; }
@@ -108,7 +110,8 @@ int run(int argc, char** argv) {
     app.add_option("--reference-spp", options.reference_samples, "Samples per pixel of images that errors are measured against")
         ->capture_default_str();
     app.add_option("--cache", options.cache, "Folder that keeps the reference images of the cases \"image_quality\" and \"quality\"");
-    app.add_option("--longest", options.max_seconds, "Seconds after an edit up to which the case \"quality\" measures")
+    app.add_option("--longest", options.max_seconds,
+                   "Seconds after an edit up to which the case \"quality\" measures; 0: \"after_edits\" without sessions")
         ->capture_default_str();
     app.add_option("--peer", options.peer_images, "JSON of tests/bench/quality/cycles_images.py, for the case \"quality\"")
         ->check(CLI::ExistingFile);

@@ -16,6 +16,7 @@ constexpr size_t min_photons_to_split = 12;            // of a node that is spli
 constexpr double even_share = 0.02;                    // of a node's samples, spread over its quadrants
 constexpr double caustic_weight = 4;                   // k
 constexpr double min_guided = 1.0 / 32;                // share of samples
+constexpr double min_weakened = 1.0 / 64;              // after edits; below, nothing is left
 constexpr double dropped_estimates = 0.02;             // of a region's largest: the caustic itself
 constexpr size_t max_measured_photons = 64;            // of a region, at most
 constexpr int coarse_side = 64;                        // cells along the longest side of the grid; or one of
@@ -274,7 +275,40 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         if (regions.of_cell[k] < 0) continue;
         roots_[k] = root_of[size_t(regions.of_cell[k])];
         guided_[k] = float(regions.all[size_t(regions.of_cell[k])].guided);
+        ++regions_;
     }
+}
+
+void GuidingField::forget_cell(size_t cell) {
+    if (roots_[cell] < 0) return;
+    roots_[cell] = -1;
+    guided_[cell] = 0;
+    --regions_;
+}
+
+void GuidingField::weaken(double factor) {
+    for (size_t k = 0; k < roots_.size(); ++k) {
+        guided_[k] *= float(factor);
+        if (guided_[k] < float(min_weakened)) forget_cell(k);
+    }
+}
+
+void GuidingField::forget(const Vec3& low, const Vec3& high) {
+    if (roots_.empty()) return;
+    // Receivers outside of the grid take its outermost cells.
+    const auto cell_along = [&](int axis, float x, float from) {
+        return int32_t(std::clamp(std::floor(double(x - from) * double(grid_.cells_per_metre)), 0.0, double(grid_.cells[axis] - 1)));
+    };
+    const auto cells_of = [&](const Vec3& at) {
+        return std::array{cell_along(0, at.x, grid_.low.x), cell_along(1, at.y, grid_.low.y), cell_along(2, at.z, grid_.low.z)};
+    };
+    const std::array<int32_t, 3> first = cells_of(low), last = cells_of(high);
+    for (int32_t z = first[2]; z <= last[2]; ++z)
+        for (int32_t y = first[1]; y <= last[1]; ++y)
+            for (int32_t x = first[0]; x <= last[0]; ++x) {
+                const auto cell = size_t((z * grid_.cells[1] + y) * grid_.cells[0] + x);
+                for (size_t side = 0; side < guiding_sides; ++side) forget_cell(cell * guiding_sides + side);
+            }
 }
 
 GuidingTables GuidingField::tables() const {

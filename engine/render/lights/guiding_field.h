@@ -36,16 +36,26 @@ public:
     // Expected variance of path vertices in the regions, with over without the field. Empty if no path met a region.
     const std::optional<PilotFigures>& figures() const { return figures_; }
     bool operator==(const GuidingField&) const = default;
+    // True if no region has learned anything.
+    bool empty() const { return regions_ == 0; }
+    // For a scene that has changed since: multiplies the shares of learned directions by `factor`, in [0, 1]. Regions with a small rest
+    // forget what they have learned: caustic casters are of more use there.
+    void weaken(double factor);
+    // Forgets what the regions have learned in cells that this box meets; coordinates as those of the photons.
+    void forget(const Vec3& low, const Vec3& high);
     int64_t memory_bytes() const {
         return int64_t((roots_.capacity() + nodes_.capacity()) * sizeof(int32_t) +
                        (shares_.capacity() + guided_.capacity()) * sizeof(float));
     }
 
 private:
+    void forget_cell(size_t cell);
+
     ReceiverGrid grid_;
     std::vector<int32_t> roots_, nodes_;
     std::vector<float> shares_, guided_;
     std::optional<PilotFigures> figures_;
+    int64_t regions_ = 0; // cells and sides that have learned something
 };
 
 } // namespace blush

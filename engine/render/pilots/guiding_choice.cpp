@@ -31,17 +31,22 @@ SceneTables GuidingChoice::tables(SceneTables scene, int64_t sample) const {
     return scene;
 }
 
-FeatureUse GuidingChoice::report() const {
+FeatureUse GuidingChoice::report(const KeptField* kept) const {
     FeatureUse use{.part = "kernel", .name = "path guiding", .used = pays(), .why = {}};
     if (useless_)
         use.why = useless_;
-    else if (!field_)
+    else if (!field_ && kept) {
+        use.used = true;
+        use.bytes = kept->memory_bytes();
+        use.why = fmt::format("directions learned {} {} ago, variance was {:.2f} of that without; a pilot decides after the first sample",
+                              kept->edits(), kept->edits() == 1 ? "edit" : "edits", kept->figures()->cost());
+    } else if (!field_)
         use.why = "a pilot decides after the first sample";
     else if (!field_->figures())
         use.why = "pilot: no photon arrives on a surface that is seen";
     else
         use.why = fmt::format("pilot: expected variance is {:.2f} of that without", field_->figures()->cost());
-    if (use.used) use.bytes = field_->memory_bytes();
+    if (pays()) use.bytes = field_->memory_bytes();
     if (field_) use.pilot = field_->figures();
     return use;
 }

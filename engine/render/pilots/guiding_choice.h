@@ -4,10 +4,12 @@
 #include "render/compile/feature_report.h"
 #include "render/compile/scene_tables.h"
 #include "render/lights/guiding_field.h"
+#include "render/pilots/kept_field.h"
 #include "scene/render_settings.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace blush {
 
@@ -30,7 +32,11 @@ public:
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
 
-    FeatureUse report() const;
+    // The field, if it pays; requires that nothing is rendered with this any more.
+    std::optional<GuidingField> take_field() { return pays() ? std::exchange(field_, std::nullopt) : std::nullopt; }
+
+    // `kept`: the field that is used until the pilot has run; null: none.
+    FeatureUse report(const KeptField* kept = nullptr) const;
 
 private:
     static constexpr double largest_cost = 0.75; // of the expected variance, which is not all of the image's

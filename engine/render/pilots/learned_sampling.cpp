@@ -15,7 +15,18 @@ LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderSce
                                  const CausticOptions& options)
     : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
       light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options.manifold_sampling),
-      scene_sphere_(scene.bounding_sphere()) {}
+      scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
+
+void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
+    if (!guiding_.needs_pilot()) return;
+    // Where the first sample was not rendered again, it will probably not be after the edit: it must do without then. Where manifold
+    // sampling finds the caustics, the field finds so little of them in one sample that it is noise.
+    if (const bool used = !before.needs_pilot() && before.renews_first() && !before.manifolds_.pays(); !before.guiding_.needs_pilot()) {
+        if (auto field = before.guiding_.take_field(); field && used) kept_.emplace(*std::move(field), before.origin_);
+    } else
+        kept_ = std::move(before.kept_);
+    if (kept_ && !kept_->follow(effect, origin)) kept_.reset();
+}
 
 bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const Workers& workers,
                              std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
@@ -36,7 +47,9 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         if (!photons) return std::nullopt;
         if (keeps) photons_ = photons;
         traced = photons;
-        return learn_path_guiding(with, *photons, others...);
+        auto field = learn_path_guiding(with, *photons, others...);
+        if (field) kept_.reset();
+        return field;
     };
     const auto measure_paths = [&](const KernelContext& with, const Kernel& own, auto&&... others) {
         return measure_light_paths(with, scene_sphere_, kernel_like(own, own.features.with(Feature::light_paths)), others...);

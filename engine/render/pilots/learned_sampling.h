@@ -6,6 +6,7 @@
 #include "render/kernels/kernel.h"
 #include "render/pilots/caustic_options.h"
 #include "render/pilots/guiding_choice.h"
+#include "render/pilots/kept_field.h"
 #include "render/pilots/light_path_choice.h"
 #include "render/pilots/manifold_choice.h"
 #include "render/pilots/portal_choice.h"
@@ -27,6 +28,11 @@ public:
 
     // Takes over what does not depend on the camera. `before`: for an image that differs at most in the view.
     void keep_from(const LearnedSampling& before) { photons_ = before.photons_; }
+    // Takes over the field of path guiding for the first sample. `before`: of the image before the edit; `origin`: of the
+    // scene after it.
+    void keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin);
+    // The field that an edit left over; null: none, or the pilots have run.
+    const KeptField* kept_field() const { return kept_ && guiding_.needs_pilot() ? &*kept_ : nullptr; }
 
     bool needs_pilot() const {
         return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() || light_paths_.needs_pilot() ||
@@ -51,12 +57,23 @@ public:
         const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
         return manifolds_.tables(light_paths_.tables(t, sample), sample);
     }
+    // Images begin without it from now on.
+    void drop_field() { kept_.reset(); }
+    // True if there is a field that the next image may begin with.
+    bool has_field() const { return kept_ || guiding_.pays(); }
+    // The tables for samples before the pilots have run, if kept_field().
+    SceneTables kept_tables(SceneTables scene) const {
+        scene.guides.learned = kept_->tables();
+        return scene;
+    }
     const LightPathChoice& light_paths() const { return light_paths_; }
     // True if samples are connected to other vertices than path reuse knows.
     bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
 
-    FeatureReport report() const {
-        return {visibility_.report(), portals_.report(), guiding_.report(), light_paths_.report(), manifolds_.report()};
+    // `kept`: samples are rendered with kept_tables().
+    FeatureReport report(bool kept = false) const {
+        return {visibility_.report(), portals_.report(), guiding_.report(kept ? kept_field() : nullptr), light_paths_.report(),
+                manifolds_.report()};
     }
 
 private:
@@ -66,6 +83,8 @@ private:
     LightPathChoice light_paths_;
     ManifoldChoice manifolds_;
     CasterSphere scene_sphere_{};
+    Vec3d origin_{0, 0, 0};
+    std::optional<KeptField> kept_;
     std::shared_ptr<const CausticPhotons> photons_; // as traced without learned visibility, which depends on the camera; may be null
 };
 

@@ -243,7 +243,9 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
     scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed());
     announce(SessionStatus::State::updating);
-    if (!renderer) renderer.emplace(RendererOptions{options.threads, options.low_priority, {}});
+    if (!renderer)
+        renderer.emplace(RendererOptions{
+            .threads = options.threads, .low_priority = options.low_priority, .planes = {}, .begins_trained = options.begins_trained});
     renderer->set_planes(with_first_hits(current->planes, options));
     renderer->begin_image(current->base(), film_settings, current->groups);
     if (current->groups) renderer->set_mix(current->mixing);
@@ -264,6 +266,7 @@ void RenderSession::State::apply_submission(PendingSubmission next) {
         scheduler.change_stop_rules(settings);
         renderer->set_planes(with_first_hits(current->planes, options));
         if (current->groups) renderer->set_mix(current->mixing);
+        if (scheduler.finished() && has_first_image) renderer->settle_first_sample();
         if (has_first_image) publish(); // the unchanged image answers the new revision
     }
     selects_lights_by_mix = false;
@@ -282,7 +285,8 @@ void RenderSession::State::go_on_from(const FilmState& film) {
 void RenderSession::State::request_film(uint64_t revision) {
     RequestedFilm kept{.revision = revision};
     Result<FilmState> film = Error{"", "the image changed before its film was saved", ""};
-    if (renderer && has_first_image && revision == current->revision) film = renderer->save_film(current->settings.first_sample);
+    if (renderer && has_first_image && revision == current->revision && renderer->settle_first_sample())
+        film = renderer->save_film(current->settings.first_sample);
     if (film) {
         film->seconds = scheduler.seconds();
         kept.frame = resolved(true);
@@ -327,6 +331,7 @@ void RenderSession::State::render_batch() {
     const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
+    if (scheduler.finished() && !renderer->settle_first_sample(wanted)) return;
     if (work.publish || scheduler.finished()) {
         publish();
         scheduler.record_publish();

@@ -22,6 +22,7 @@ struct SessionOptions {
     unsigned threads = 0;         // 0: one per core
     bool low_priority = true;     // below the UI: render threads must not starve it
     bool first_hit_planes = true; // albedo, normal, depth, ids in every frame: for picking, the pixel probe and the denoiser
+    bool begins_trained = true;   // the first sample after an edit uses the field of path guiding of before it (RendererOptions)
     DenoiserMaker denoiser = {};  // not called until denoised images are wanted; empty: no denoising
     double denoiser_grace = 30;   // seconds until the denoiser's memory is freed after denoised images are no longer wanted
 };

@@ -5,8 +5,11 @@
 
 namespace blush::bench {
 
-Screen::Screen(unsigned threads, bool denoised)
-    : denoised_(denoised), session_({.threads = threads, .low_priority = true, .denoiser = denoiser_maker(weights_folder(), threads, true)},
+Screen::Screen(unsigned threads, bool denoised, bool trained)
+    : denoised_(denoised), session_({.threads = threads,
+                                     .low_priority = true,
+                                     .begins_trained = trained,
+                                     .denoiser = denoiser_maker(weights_folder(), threads, true)},
                                     [this] { on_frame(); }) {
     session_.want_denoised(denoised);
 }

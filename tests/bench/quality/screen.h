@@ -19,8 +19,8 @@ struct AfterEdit {
 
 class Screen {
 public:
-    // `denoised`: denoised images are wanted, as after N in the window.
-    Screen(unsigned threads, bool denoised);
+    // `denoised`: denoised images are wanted, as after N in the window. `trained`: SessionOptions::begins_trained.
+    Screen(unsigned threads, bool denoised, bool trained = true);
 
     // Shows the scene at full size, denoised if wanted, and refines it for `seconds`. Errors: those of the session.
     Result<void> show(const Scene& scene, const RenderSettings& settings, double seconds);

@@ -57,6 +57,67 @@ TEST(GuidingField, SendsSamplesTowardsTheLight) {
     EXPECT_GT(towards, samples * 0.8);
 }
 
+// The shares of learned directions at points of the left half, which has the caustic.
+std::vector<float> shares_of(const GuidingField& field) {
+    const GuidingTables t = field.tables();
+    std::vector<float> shares;
+    for (float x = -1.9f; x < -0.2f; x += 0.1f)
+        for (float z = -1.9f; z < 1.9f; z += 0.1f) {
+            const int32_t cell = cell_at(t, {x, 0, z});
+            EXPECT_EQ(t.roots[cell] < 0, t.guided[cell] == 0);
+            shares.push_back(t.guided[cell]);
+        }
+    return shares;
+}
+
+TEST(GuidingField, IsWeakenedUntilNothingIsLeft) {
+    const GuidingField field = learned(trials());
+    GuidingField weaker = field;
+    weaker.weaken(0.25);
+    const std::vector<float> before = shares_of(field), after = shares_of(weaker);
+    for (size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i], before[i] * 0.25f);
+    EXPECT_FALSE(weaker.empty());
+    weaker.weaken(0.01);
+    EXPECT_TRUE(weaker.empty());
+    EXPECT_TRUE(GuidingField().empty());
+}
+
+TEST(GuidingField, ForgetsTheCellsOfABox) {
+    const GuidingField field = learned(trials());
+    GuidingField rest = field;
+    rest.forget({-1.5f, -0.1f, -1.2f}, {-0.5f, 0.4f, 0.3f});
+    const GuidingTables t = field.tables(), after = rest.tables();
+    const float cell = 1 / t.grid.cells_per_metre;
+    int forgotten = 0, kept = 0;
+    for (float x = -1.9f; x < -0.2f; x += 0.05f)
+        for (float z = -1.9f; z < 1.9f; z += 0.05f) {
+            const bool inside = x > -1.5f && x < -0.5f && z > -1.2f && z < 0.3f;
+            const bool outside = x < -1.5f - cell || x > -0.5f + cell || z < -1.2f - cell || z > 0.3f + cell;
+            const int32_t at = cell_at(t, {x, 0, z});
+            forgotten += inside && t.roots[at] >= 0;
+            kept += outside && t.roots[at] >= 0;
+            if (inside) EXPECT_EQ(after.roots[at], -1) << x << " " << z;
+            if (outside) EXPECT_EQ(after.roots[at], t.roots[at]) << x << " " << z;
+        }
+    EXPECT_GT(forgotten, 100);
+    EXPECT_GT(kept, 100);
+    rest.forget({-9, -9, -9}, {9, 9, 9});
+    EXPECT_TRUE(rest.empty());
+}
+
+// As many photons as the pilot traces at most, in a cube: the largest number of cells.
+TEST(GuidingField, TakesAtMost32MiB) {
+    RandomNumbers random(4);
+    Trials all;
+    for (int i = 0; i < 262'144; ++i) {
+        const Vec3 d = random.direction();
+        all.photons.push_back({{random(-2, 2), random(-2, 2), random(-2, 2)}, {0, i % 2 ? 1.f : -1.f, 0}, d, 1});
+    }
+    const GuidingField field = learned(all, 2);
+    EXPECT_FALSE(field.empty());
+    EXPECT_LT(field.memory_bytes(), int64_t(32) << 20);
+}
+
 TEST(GuidingField, ProbabilitiesFollowTheFlux) {
     RandomNumbers random(8);
     Trials all;
