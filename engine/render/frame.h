@@ -69,6 +69,8 @@ struct Frame {
     // Radiance by number of scatterings: 0 directly visible, 1 scattered once, ...; the last holds all further ones. They sum to
     // the beauty. Empty unless requested.
     std::vector<std::vector<Vec3>> bounces;
+    // Radiance by the strategy that has found it (FoundBy in film/found_by.h). They sum to the beauty. Empty unless requested.
+    std::vector<std::vector<Vec3>> strategies;
 
     // Radiance by light group (light_groups.h), before gains, and the gains used for rgba and error: rgba is the sum of planes
     // times gains. Empty unless there are groups.

@@ -27,7 +27,7 @@ void draw_playing(PanelContext& c, Fields& f, BouncesView& view, int planes) {
     if (view.playing) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, play(view, ImGui::GetTime(), planes));
 }
 
-void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& energies) {
+void draw_gains(Fields& f, BouncesView& view, const std::vector<PlaneEnergy>& energies) {
     view.gains.resize(energies.size(), 1.f);
     for (size_t k = 0; k < energies.size(); ++k)
         f.number(fmt::format("Bounce {}", energies[k].name).c_str(), view.gains[k],
@@ -41,12 +41,12 @@ void draw_gains(Fields& f, BouncesView& view, const std::vector<BounceEnergy>& e
     if (f.button("All 1", "Reset all gains to 1.")) view.gains.assign(energies.size(), 1.f);
 }
 
-void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEnergy>& energies) {
+void draw_energy(PanelContext& c, BouncesView& view, const std::vector<PlaneEnergy>& energies) {
     const std::vector<float> gains = gains_of(view, int(energies.size()));
     std::vector<Bar> bars;
     double direct = 0;
     for (size_t k = 0; k < energies.size(); ++k) {
-        const BounceEnergy& e = energies[k];
+        const PlaneEnergy& e = energies[k];
         bars.push_back(
             {fmt::format("Bounce {}", e.name), e.share, fmt::format("{:.2f} %", 100 * e.share), view.mode != Mode::image && gains[k] != 0});
         if (k <= 1) direct += e.share;
@@ -65,7 +65,7 @@ void draw_energy(PanelContext& c, BouncesView& view, const std::vector<BounceEne
 
 void draw_bounces_panel(PanelContext& c) {
     BouncesView& view = c.ui.bounces;
-    const std::vector<BounceEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<BounceEnergy>();
+    const std::vector<PlaneEnergy> energies = c.frame ? bounce_energy(*c.frame) : std::vector<PlaneEnergy>();
     if (energies.empty()) return quiet_text("Waiting for a render with bounce AOVs.");
     Fields f(c.ui, "Bounces");
     int mode = int(view.mode);

@@ -42,11 +42,13 @@ std::string displayed(const PanelContext& c, const Vec3& rgb, const Vec3& albedo
                        byte(shown[2]));
 }
 
-// Value of the group or bounce that the viewport shows.
+// Value of the group, bounce or strategy that the viewport shows.
 void draw_planes(const PanelContext& c, const Frame& f, size_t pixel) {
     const AovView& view = c.ui.aov;
     const size_t k = size_t(view.index);
     if (view.show == ImageView::Show::group && k < f.groups.size()) row(c, name_of(view, &f).c_str(), triple(group_pixel(f, k, pixel)));
+    if (view.show == ImageView::Show::strategy && k < f.strategies.size())
+        row(c, name_of(view, &f).c_str(), triple(f.strategies[k][pixel]));
     if (view.show == ImageView::Show::bounces && k < f.bounces.size())
         row(c, fmt::format("Bounce {}", k).c_str(), triple(f.bounces[k][pixel]));
 }

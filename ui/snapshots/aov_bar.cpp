@@ -16,7 +16,9 @@ namespace {
 void draw_list(PanelContext& c, const Frame* frame) {
     ImageView::Show before = ImageView::Show::beauty;
     for (const AovEntry& e : aov_list(frame)) {
-        if (e.view.show != before && (e.view.show == ImageView::Show::group || e.view.show == ImageView::Show::bounces)) ImGui::Separator();
+        const bool begins_part =
+            e.view.show == ImageView::Show::group || e.view.show == ImageView::Show::bounces || e.view.show == ImageView::Show::strategy;
+        if (e.view.show != before && begins_part) ImGui::Separator();
         before = e.view.show;
         const ImGuiSelectableFlags flags = e.possible ? 0 : ImGuiSelectableFlags_Disabled;
         const std::string shown = elided(e.name, ImGui::GetFontSize() * 20);
@@ -40,8 +42,10 @@ void draw_mark(PanelContext& c) {
 
 void show_aov(PanelContext& c, const AovView& view) {
     const bool lacks = view.show == ImageView::Show::bounces && c.frame && c.frame->bounces.empty();
+    const bool lacks_strategies = view.show == ImageView::Show::strategy && c.frame && c.frame->strategies.empty();
     c.ui.aov = view;
     c.ui.bounces.mode = BouncesView::Mode::image; // one of the two modes controls the viewport
+    if (lacks_strategies) c.ui.toasts.note("Strategy AOVs are switched on: the render restarts");
     if (lacks) c.ui.toasts.note("Bounce AOVs are switched on: the render restarts");
 }
 

@@ -15,6 +15,17 @@ std::string bounce_name(int k) {
 
 } // namespace
 
+std::string strategy_name(FoundBy by) {
+    switch (by) {
+    case FoundBy::camera_hit: return "Camera hits";
+    case FoundBy::guided: return "Path guiding";
+    case FoundBy::nee: return "Next event estimation";
+    case FoundBy::manifold: return "Manifold sampling";
+    case FoundBy::light_path: return "Light paths";
+    }
+    return {};
+}
+
 std::vector<AovEntry> aov_list(const Frame* frame) {
     std::vector<AovEntry> list{{{Show::beauty}, "Beauty"}, {{Show::albedo}, "Albedo"},     {{Show::normal}, "Normal"},
                                {{Show::depth}, "Depth"},   {{Show::object_id}, "Objects"}, {{Show::material_id}, "Materials"},
@@ -28,6 +39,10 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     const int bounces = has_bounces ? int(frame->bounces.size()) : default_bounce_planes;
     for (int k = 0; k < bounces; ++k)
         list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce AOVs: the render restarts"});
+    for (int k = 0; k < found_by_count; ++k)
+        list.push_back({{Show::strategy, k},
+                        strategy_name(FoundBy(k)),
+                        frame && !frame->strategies.empty() ? "" : "Needs strategy AOVs: the render restarts"});
     return list;
 }
 
@@ -47,6 +62,7 @@ AovView stepped(const AovView& view, const Frame* frame, int by) {
 
 ImageView image_view(const AovView& view, int bounce_planes) {
     if (view.show == Show::group) return {.show = Show::group, .group = view.index};
+    if (view.show == Show::strategy) return {.show = Show::strategy, .strategy = view.index};
     if (view.show != Show::bounces) return {.show = view.show};
     std::vector<float> gains(size_t(bounce_planes), 0.f);
     if (view.index < bounce_planes) gains[size_t(view.index)] = 1;
@@ -54,7 +70,9 @@ ImageView image_view(const AovView& view, int bounce_planes) {
 }
 
 PlaneSet planes_of(const AovView& view) {
-    return {.bounces = view.show == Show::bounces ? default_bounce_planes : 0, .error = view.show == Show::error};
+    return {.bounces = view.show == Show::bounces ? default_bounce_planes : 0,
+            .error = view.show == Show::error,
+            .strategies = view.show == Show::strategy};
 }
 
 } // namespace blush

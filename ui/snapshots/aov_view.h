@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/film/film_size.h"
+#include "render/film/found_by.h"
 #include "render/frame.h"
 #include "ui/snapshots/image_view.h"
 
@@ -12,7 +13,7 @@ namespace blush {
 
 struct AovView {
     ImageView::Show show = ImageView::Show::beauty;
-    int index = 0; // of the bounce or group
+    int index = 0; // of the bounce, the group or the strategy
     bool operator==(const AovView&) const = default;
 };
 
@@ -22,9 +23,11 @@ struct AovEntry {
     std::string needs = {}; // why the AOV is not available yet; empty: it is available
     bool possible = true;   // false: only the user can provide the missing data
 };
-// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame and one per bounce. With a null frame, the
+// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame, one per bounce and one per
+// strategy. With a null frame, the
 // list has no groups.
 std::vector<AovEntry> aov_list(const Frame* frame);
+std::string strategy_name(FoundBy by);
 // Its name in the list.
 std::string name_of(const AovView& view, const Frame* frame);
 // The entry `steps` further in the list, cyclically, skipping impossible ones.

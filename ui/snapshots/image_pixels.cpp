@@ -4,6 +4,7 @@
 #include "core/math.h"
 #include "render/film/coverage.h"
 #include "ui/snapshots/aov_pixels.h"
+#include "ui/snapshots/aov_view.h"
 #include "ui/snapshots/heat_map.h"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ bool is_special(const Frame& frame, const ImageView& view) {
     case Show::material_id: return !frame.material_id.empty();
     case Show::error: return !frame.standard_error.empty();
     case Show::samples: return frame.samples > 0;
+    case Show::strategy: return view.strategy >= 0 && size_t(view.strategy) < frame.strategies.size();
     case Show::group: return view.group >= 0 && size_t(view.group) < frame.groups.size();
     }
     return false;
@@ -100,8 +102,9 @@ std::vector<float> pixels_of(const Frame& frame, const ImageView& view) {
     std::vector<float> rgba(frame.rgba.size(), 1.f);
     const Range range = range_of(frame, view.show);
     for (size_t i = 0; i < rgba.size() / 4; ++i) {
-        const Vec3 c = view.show == Show::bounces ? mixed(frame, view.gains, i)
-                       : view.show == Show::group ? group_pixel(frame, size_t(view.group), i)
+        const Vec3 c = view.show == Show::bounces    ? mixed(frame, view.gains, i)
+                       : view.show == Show::strategy ? frame.strategies[size_t(view.strategy)][i]
+                       : view.show == Show::group    ? group_pixel(frame, size_t(view.group), i)
                                                   : heat_map_color((value_at(frame, view.show, i) - range.low) / (range.high - range.low));
         rgba[4 * i] = c.x;
         rgba[4 * i + 1] = c.y;
@@ -128,6 +131,9 @@ std::string caption_of(const Frame& frame, const ImageView& view) {
         return fmt::format("Dropped samples: black 0, white {:.0f} per pixel", range.high);
     case Show::path_length: return fmt::format("Path length: black {:.0f}, white {:.1f} vertices on average", range.low, range.high);
     case Show::survival: return "Survival: mean survival probability, black 0, white 1";
+    case Show::strategy:
+        return fmt::format("{} only: not the whole image{}", strategy_name(FoundBy(view.strategy)),
+                           is_mixed(frame.gains) ? ", without the light mix" : "");
     case Show::group: return fmt::format("Light group {} only: not the whole image", frame.group_names[size_t(view.group)]);
     default: return is_data(view) ? aov_caption(frame, view.show) : std::string();
     }

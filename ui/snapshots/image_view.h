@@ -19,13 +19,15 @@ struct ImageView {
         depth,
         object_id,
         material_id,
-        error,   // standard error of each pixel, relative to its value
-        samples, // per pixel
-        group,   // a light group, in the current light mix
+        error,    // standard error of each pixel, relative to its value
+        samples,  // per pixel
+        group,    // a light group, in the current light mix
+        strategy, // light that one strategy has found
     };
     Show show = Show::beauty;
     std::vector<float> gains = {}; // per bounce
     int group = 0;                 // index in the frame's light groups
+    int strategy = 0;              // FoundBy
     bool operator==(const ImageView&) const = default;
 };
 

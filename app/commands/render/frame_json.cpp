@@ -44,9 +44,16 @@ OrderedJson health_json(const Health& health) {
 
 OrderedJson bounces_json(const Frame& frame) {
     OrderedJson bounces = OrderedJson::array();
-    for (const BounceEnergy& e : bounce_energy(frame))
+    for (const PlaneEnergy& e : bounce_energy(frame))
         bounces.push_back({{"bounce", e.name}, {"share", e.share}, {"mean", rgb_json(e.mean)}});
     return bounces;
+}
+
+OrderedJson strategies_json(const Frame& frame) {
+    OrderedJson strategies = OrderedJson::array();
+    for (const PlaneEnergy& e : strategy_energy(frame))
+        strategies.push_back({{"strategy", e.name}, {"share", e.share}, {"mean", rgb_json(e.mean)}});
+    return strategies;
 }
 
 OrderedJson groups_json(const Frame& frame) {

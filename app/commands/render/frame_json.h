@@ -12,6 +12,8 @@ namespace blush {
 OrderedJson health_json(const Health& health);
 // [{bounce, share, mean}]
 OrderedJson bounces_json(const Frame& frame);
+// [{strategy, share, mean}]
+OrderedJson strategies_json(const Frame& frame);
 // [{group, energy, noise, gain}]: fractions of the image's luminance and variance, and the gain of the group
 OrderedJson groups_json(const Frame& frame);
 // {limit, light, samples, share, removed}

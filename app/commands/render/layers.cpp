@@ -13,7 +13,7 @@ struct LayerName {
 };
 constexpr LayerName known[] = {{"albedo", &Layers::albedo}, {"normal", &Layers::normal},   {"depth", &Layers::depth},
                                {"error", &Layers::error},   {"samples", &Layers::samples}, {"id", &Layers::ids},
-                               {"film", &Layers::film},     {"groups", &Layers::groups}};
+                               {"film", &Layers::film},     {"groups", &Layers::groups},   {"strategies", &Layers::strategies}};
 
 Result<void> switch_on(Layers& layers, std::string_view name) {
     if (name == "bounces") {
@@ -44,6 +44,13 @@ Result<Layers> parse_layers(std::string_view text) {
     return layers;
 }
 
-PlaneSet planes_of(const Layers& layers) { return {layers.albedo, layers.normal, layers.depth, layers.ids, layers.bounces}; }
+PlaneSet planes_of(const Layers& layers) {
+    return {.albedo = layers.albedo,
+            .normal = layers.normal,
+            .depth = layers.depth,
+            .ids = layers.ids,
+            .bounces = layers.bounces,
+            .strategies = layers.strategies};
+}
 
 } // namespace blush

@@ -11,9 +11,10 @@ namespace blush {
 
 struct Layers {
     bool albedo = false, normal = false, depth = false, error = false, samples = false, ids = false;
-    bool film = false;   // full sums, for --continue and merge
-    bool groups = false; // one plane per light group
-    int bounces = 0;     // number of planes by bounce
+    bool film = false;       // full sums, for --continue and merge
+    bool groups = false;     // one plane per light group
+    int bounces = 0;         // number of planes by bounce
+    bool strategies = false; // one plane per strategy that finds light
     bool any() const { return *this != Layers{}; }
     bool operator==(const Layers&) const = default;
 };

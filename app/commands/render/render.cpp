@@ -189,6 +189,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
     json["warnings"] = OrderedJson::array();
     for (const Diagnostic& d : rendered.warnings) json["warnings"].push_back(Error{{}, d.what, d.where}.text());
     if (!r.frame.bounces.empty()) json["bounces"] = bounces_json(r.frame);
+    if (!r.frame.strategies.empty()) json["strategies"] = strategies_json(r.frame);
     if (!r.frame.groups.empty()) json["groups"] = groups_json(r.frame);
     if (settings.clamp.limit > 0) json["clamp"] = clamp_json(settings.clamp, r.frame.clamp);
     CommandFeatures beside;
@@ -378,9 +379,9 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
-    sub->add_option(
-           "--layers", command->layers,
-           "Additional layers, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],film (sums, for --continue and merge)")
+    sub->add_option("--layers", command->layers,
+                    "Additional layers, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],strategies,film (sums, for "
+                    "--continue and merge)")
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");

@@ -1,6 +1,7 @@
 #include "app/commands/render/write_image.h"
 
 #include "app/common/assets_dir.h"
+#include "render/film/found_by.h"
 #include "render/light_mix/light_mix.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,8 @@ Result<int64_t> write_exr_image(const std::filesystem::path& file, const Frame& 
         input.material_id = frame.material_id;
     }
     input.bounces = frame.bounces;
+    input.strategies = frame.strategies;
+    input.strategy_names = found_by_names;
     const std::vector<std::vector<Vec3>> groups = layers.groups ? mixed_groups(frame) : std::vector<std::vector<Vec3>>();
     input.groups = groups;
     input.group_names = frame.group_names;

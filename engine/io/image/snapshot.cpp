@@ -140,6 +140,8 @@ Result<LayeredImage> make_snapshot(const SnapshotInput& input) {
     builder.vectors("error.", "RGB", input.error);
     builder.scalars("samples.Y", input.samples);
     for (size_t k = 0; k < input.bounces.size(); ++k) builder.vectors(fmt::format("bounce.{}.", k), "RGB", input.bounces[k]);
+    for (size_t k = 0; k < std::min(input.strategies.size(), input.strategy_names.size()); ++k)
+        builder.vectors(fmt::format("strategy.{}.", input.strategy_names[k]), "RGB", input.strategies[k]);
     const std::vector<std::string> groups = channel_names(input.group_names);
     for (size_t k = 0; k < std::min(groups.size(), input.groups.size()); ++k)
         builder.vectors(fmt::format("group.{}.", groups[k]), "RGB", input.groups[k]);

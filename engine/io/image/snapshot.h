@@ -50,6 +50,9 @@ struct SnapshotInput {
     std::span<const float> samples; // per pixel
     std::span<const uint32_t> object_id, material_id;
     std::span<const std::vector<Vec3>> bounces; // light by number of bounces
+    // Light by the strategy that has found it; the planes sum to the beauty. One name per plane, as in channel names.
+    std::span<const std::vector<Vec3>> strategies;
+    std::span<const std::string_view> strategy_names;
     // Light by light group; the groups sum to the beauty. One name per group; characters that are not allowed in channel names
     // become underscores.
     std::span<const std::vector<Vec3>> groups;
@@ -60,7 +63,7 @@ struct SnapshotInput {
 };
 
 // Channels R G B A, then denoised.{R,G,B}, albedo.{R,G,B}, normal.{X,Y,Z}, depth.Z, error.{R,G,B}, samples.Y, bounce.N.{R,G,B},
-// group.NAME.{R,G,B}, id.object, id.material, film.* (lossless_channels.h).
+// strategy.NAME.{R,G,B}, group.NAME.{R,G,B}, id.object, id.material, film.* (lossless_channels.h).
 // Errors: a plane of the wrong size, an id of 2^24 or more, which a float channel cannot represent.
 Result<LayeredImage> make_snapshot(const SnapshotInput& input);
 

@@ -120,7 +120,7 @@ struct RouletteComparison::State {
     RouletteReport report;
 
     void compare_means() {
-        const std::vector<BounceEnergy> with = bounce_energy(rule.frame), without = bounce_energy(none.frame);
+        const std::vector<PlaneEnergy> with = bounce_energy(rule.frame), without = bounce_energy(none.frame);
         double whole_with = 0, whole_without = 0;
         report.bias.resize(1 + bounce_planes);
         report.bias[0].name = "whole image";

@@ -1,9 +1,11 @@
 #include "measure/statistics/bounce_energy.h"
 
 #include "core/math.h"
+#include "render/film/found_by.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -14,19 +16,30 @@ Vec3d mean_of(const std::vector<Vec3>& plane) {
     return sum / double(std::max<size_t>(1, plane.size()));
 }
 
+std::vector<PlaneEnergy> with_shares(std::vector<PlaneEnergy> energies) {
+    double whole = 0;
+    for (const PlaneEnergy& e : energies) whole += luminance(e.mean);
+    if (whole > 0)
+        for (PlaneEnergy& e : energies) e.share = luminance(e.mean) / whole;
+    return energies;
+}
+
 } // namespace
 
-std::vector<BounceEnergy> bounce_energy(const Frame& frame) {
-    std::vector<BounceEnergy> energies;
-    double whole = 0;
+std::vector<PlaneEnergy> bounce_energy(const Frame& frame) {
+    std::vector<PlaneEnergy> energies;
     for (size_t k = 0; k < frame.bounces.size(); ++k) {
         const bool last = k + 1 == frame.bounces.size();
         energies.push_back({fmt::format("{}{}", k, last ? "+" : ""), mean_of(frame.bounces[k]), 0});
-        whole += luminance(energies.back().mean);
     }
-    if (whole > 0)
-        for (BounceEnergy& e : energies) e.share = luminance(e.mean) / whole;
-    return energies;
+    return with_shares(std::move(energies));
+}
+
+std::vector<PlaneEnergy> strategy_energy(const Frame& frame) {
+    std::vector<PlaneEnergy> energies;
+    for (size_t k = 0; k < frame.strategies.size(); ++k)
+        energies.push_back({std::string(found_by_names[k]), mean_of(frame.strategies[k]), 0});
+    return with_shares(std::move(energies));
 }
 
 } // namespace blush

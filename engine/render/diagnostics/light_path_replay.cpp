@@ -41,7 +41,7 @@ ReplayedLightPath replay_light_path(const KernelContext& context, const EmittedP
             shadows.mask = camera_ray_mask;
             trace_any<float>(*context.accel, shadows, scratch.shadows.size, false, scratch.blocked);
             const size_t first = columns.splats.size();
-            add_splats(context.settings, bounce, scratch);
+            add_splats(context, bounce, scratch);
             vertex.light = light_of(columns.splats, pixel, first);
         }
         replayed.light = replayed.light + vertex.light;

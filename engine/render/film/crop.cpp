@@ -12,6 +12,7 @@ Frame cropped(const Frame& frame, const PixelRect& rect) {
     for (auto* plane : {&part.albedo, &part.normal, &part.standard_error}) crop(*plane);
     for (auto* plane : {&part.object_id, &part.material_id, &part.health.dropped_map}) crop(*plane);
     for (auto& plane : part.bounces) crop(plane);
+    for (auto& plane : part.strategies) crop(plane);
     for (auto& plane : part.groups) crop(plane);
     part.error = {};
     part.group_shares.clear();

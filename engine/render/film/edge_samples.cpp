@@ -44,6 +44,12 @@ void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, int 
     replace(tile, slot, before, now);
     if (tile.bounces)
         for (int k = 0; k < tile.bounces->recorded; ++k) replace(tile.bounces->after[size_t(k)], slot, before, now);
+    if (tile.strategies) {
+        GroupColumns& light = tile.strategies->light;
+        constexpr auto hit = size_t(FoundBy::camera_hit);
+        replace(light.all[hit], slot, before, now);
+        if (light.has_direct && !light.direct.empty()) replace(light.direct[hit], slot, before, now);
+    }
     if (!tile.groups) return;
     for (size_t k = 0; k < tile.groups->all.size(); ++k) {
         const Vec3d group_before = mean_of(own.groups->all[k], own_slot, 1),

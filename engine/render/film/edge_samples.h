@@ -27,8 +27,8 @@ struct EdgeScratch {
 //
 // Its rays are not counted: the number of camera rays is that of paths.
 //
-// Light groups and light by bounces get the same difference as the radiance; first hits stay those of the sample's own ray. A sample
-// stays as it is if one of its emission samples is negative or not finite.
+// Light groups, light by bounces and what camera rays hit get the same difference as the radiance; first hits stay those of the sample's
+// own ray. A sample stays as it is if one of its emission samples is negative or not finite.
 void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,
                      EdgeScratch& scratch);
 

@@ -35,7 +35,9 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
         {"caught shadows", size.catches, size.catches ? "there is a shadow catcher" : "there is no shadow catcher",
          places * sizeof(CaughtSums)},
         {"splats", size.light_paths, size.light_paths ? "light paths reach any pixel" : "there are no light paths",
-         SplatPlanes::bytes_per_pixel},
+         SplatPlanes::bytes_per_pixel(planes.bounces, size.groups)},
+        {"strategies", planes.strategies, planes.strategies ? "used by a layer or a view" : "not used: no layer, no view",
+         GroupPlanes::bytes_per_pixel(path_strategies)},
         {"path statistics", planes.roulette, planes.roulette ? "used by a roulette view" : "not used: no roulette view",
          places * sizeof(Vec3d)},
     };
@@ -44,7 +46,8 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
     return bytes(half_buffers_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) +
-           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes() + splats_.memory_bytes();
+           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes() + strategies_.memory_bytes() +
+           splats_.memory_bytes();
 }
 
 void Film::require_memory(const FilmSize& size) {
@@ -95,7 +98,8 @@ void Film::clear() {
     material_.assign(planes_.ids ? n : 0, -1);
     bounces_.reset(places, planes_.bounces);
     groups_.reset(n, group_count_);
-    splats_.reset(light_paths_ ? n : 0);
+    strategies_.reset(n, planes_.strategies ? path_strategies : 0);
+    splats_.reset(light_paths_ ? n : 0, planes_.bounces, group_count_);
     paths_.assign(planes_.roulette ? places : 0, Vec3d{0, 0, 0});
     clamp_.reset(places, clamping_);
     health_.reset();
@@ -112,6 +116,8 @@ void Film::keep_only(const PlaneSet& planes) {
     free_unless(planes.ids, material_);
     free_unless(planes.roulette, paths_);
     free_unless(planes.bounces > 0, bounces_);
+    free_unless(planes.strategies, strategies_);
+    if (planes.bounces == 0) splats_.drop_bounces();
 }
 
 Film::Weights Film::weights(const HalfBuffer& a, const HalfBuffer& b) const {
@@ -169,7 +175,9 @@ void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot,
     const bool first_of_pixel = half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count == 0;
     if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
     if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
-    if (needs_groups() > 0) groups_.add(pixel, half, tile, slot, left.first_scaled, left.scale);
+    if (needs_groups() > 0) groups_.add(pixel, half, *tile.groups, slot, left.first_scaled, left.scale);
+    if (planes_.strategies)
+        strategies_.add(pixel, half, tile.strategies->light, slot, left.first_scaled, left.scale, int(FoundBy::manifold));
     if (planes_.roulette) {
         const RouletteColumns& c = *tile.roulette;
         paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.num_rr_applied[slot]), double(c.survival[slot])};
@@ -237,6 +245,7 @@ void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, cons
         half.g += sign * tile.g[slot];
         half.b += sign * tile.b[slot];
         if (bounces_.planes() > 0) add(bounces_.sum(place_of(pixel, 0), 0), tile);
+        if (strategies_.groups() > 0) add(strategies_.sum(pixel, 0, size_t(FoundBy::camera_hit)), tile);
         for (int k = 0; k < groups_.groups(); ++k) add(groups_.sum(pixel, 0, size_t(k)), tile.groups->all[size_t(k)]);
     }
 }
@@ -282,12 +291,33 @@ void Film::Totals::merge(const Totals& other) {
     }
 }
 
+Vec3d Film::group_sum(size_t pixel, int half, size_t group) const {
+    const Vec3d& samples = groups_.sum(pixel, half, group);
+    if (!splats_.on()) return samples;
+    return samples + splats_.group_for(pixel, half, group, half_buffers_[2 * pixel + size_t(half)].count);
+}
+
+Vec3d Film::mixed_sum(size_t pixel, int half) const {
+    Vec3d all{0, 0, 0};
+    for (size_t k = 0; k < gains_.size(); ++k) {
+        const Vec3& g = gains_[k];
+        all = all + group_sum(pixel, half, k) * Vec3d{double(g.x), double(g.y), double(g.z)};
+    }
+    return all;
+}
+
+Vec3d Film::strategy_sum(size_t pixel, int half, FoundBy by) const {
+    if (by != FoundBy::light_path) return strategies_.sum(pixel, half, size_t(by));
+    if (!splats_.on()) return {0, 0, 0};
+    return splats_.sum_for(pixel, half, half_buffers_[2 * pixel + size_t(half)].count);
+}
+
 void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const {
     const double na = double(half_buffers_[2 * pixel].count), nb = double(half_buffers_[2 * pixel + 1].count);
     // The square of |A - B| times this is an unbiased estimate of the variance of the weighted mean.
     const double k = na > 0 && nb > 0 ? std::sqrt(na * w.a * nb * w.b) : 0;
     for (size_t g = 0; g < frame.groups.size(); ++g) {
-        const Vec3d &a = groups_.sum(pixel, 0, g), &b = groups_.sum(pixel, 1, g);
+        const Vec3d a = group_sum(pixel, 0, g), b = group_sum(pixel, 1, g);
         const Vec3d mean = a * w.a + b * w.b;
         frame.groups[g][pixel] = {float(mean.x), float(mean.y), float(mean.z)};
         shares[g].mean = shares[g].mean + mean;
@@ -323,8 +353,13 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
             frame.material_id[i] = uint32_t(material_[i]) + 1;
         }
         for (size_t k = 0; k < frame.bounces.size(); ++k) {
-            const Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
+            Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
+            if (splats_.on()) light = light + splats_.bounce_for(i, 0, k, a.count) * w.a + splats_.bounce_for(i, 1, k, b.count) * w.b;
             frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
+        }
+        for (size_t k = 0; k < frame.strategies.size(); ++k) {
+            const Vec3d light = strategy_sum(i, 0, FoundBy(k)) * w.a + strategy_sum(i, 1, FoundBy(k)) * w.b;
+            frame.strategies[k][i] = {float(light.x), float(light.y), float(light.z)};
         }
         if (!frame.groups.empty()) resolve_groups(frame, i, w, totals.groups);
         if (planes_.roulette) {
@@ -423,6 +458,8 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     frame.material_id.resize(planes_.ids ? n : 0);
     frame.bounces.resize(size_t(planes_.bounces));
     for (std::vector<Vec3>& plane : frame.bounces) plane.resize(n);
+    frame.strategies.resize(planes_.strategies ? size_t(found_by_count) : 0);
+    for (std::vector<Vec3>& plane : frame.strategies) plane.resize(n);
     frame.groups.resize(size_t(needs_groups()));
     for (std::vector<Vec3>& plane : frame.groups) plane.resize(n);
     frame.gains = gains_;

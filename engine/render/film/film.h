@@ -8,6 +8,7 @@
 #include "render/film/clamp_stats.h"
 #include "render/film/edge_pixels.h"
 #include "render/film/film_size.h"
+#include "render/film/found_by.h"
 #include "render/film/group_planes.h"
 #include "render/film/shadow_catcher.h"
 #include "render/film/splat_planes.h"
@@ -44,7 +45,7 @@ public:
     // Throws std::runtime_error with a user message if such a film does not fit into memory.
     static void require_memory(const FilmSize& size);
     // Clears, and allocates missing planes. Throws as above. Adaptive: each half's sample count depends on sample values, so both
-    // halves get equal weight (sample_allocation.h). Light paths do not go together with light groups (film_size.h).
+    // halves get equal weight (sample_allocation.h).
     void reset(const FilmSize& size, const Clamp& clamp = {});
     void clear();
     // Frees all planes not listed; the listed ones must exist.
@@ -65,6 +66,9 @@ public:
     // The kernels must also record direct light (at most one scattering) per group.
     bool needs_direct_groups() const { return needs_groups() > 0 && clamp_.columns() > 0; }
     bool needs_roulette() const { return planes_.roulette; }
+    // The kernels must record radiance by strategy, and direct light apart if clamping excludes it.
+    bool needs_strategies() const { return planes_.strategies; }
+    bool needs_direct_strategies() const { return needs_strategies() && clamp_.columns() > 0; }
 
     // Finds the cause of an invalid sample of pixel (x, y).
     using Diagnose = std::function<Fault(int x, int y, int64_t sample)>;
@@ -91,7 +95,7 @@ public:
     // Sum of the samples of half `half` of a pixel, with the groups' gains applied, and of its splats, scaled such that the sum
     // divided by the number of samples is the mean of the half.
     Vec3d sum(size_t pixel, int half) const {
-        if (mixed_) return groups_.mixed(pixel, half, gains_);
+        if (mixed_) return mixed_sum(pixel, half);
         return unmixed_sum(pixel, half);
     }
     // Calls change(index) for the material of each pixel's first hit.
@@ -159,9 +163,16 @@ private:
         const Vec3d s = splats_.sum_for(pixel, half, h.count);
         return {h.r + s.x, h.g + s.y, h.b + s.z};
     }
+    // Sum over the groups, each times its gain.
+    Vec3d mixed_sum(size_t pixel, int half) const;
+    // Of one group, or of one strategy, with the splats as for sum().
+    Vec3d group_sum(size_t pixel, int half, size_t group) const;
+    Vec3d strategy_sum(size_t pixel, int half, FoundBy by) const;
     Vec3d sum_of(size_t pixel) const;
     float notable_sum(size_t pixel, int samples) const;
-    bool has_planes() const { return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || needs_groups() > 0; }
+    bool has_planes() const {
+        return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || planes_.strategies || needs_groups() > 0;
+    }
     // Adds a sample to all planes except the beauty; call it before adding to the beauty.
     void add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampStats::ClampResult& left);
     void add_notable(size_t pixel, const SampleName& at, const TileScratch& tile, int slot, const Diagnose& diagnose, Findings& findings,
@@ -198,6 +209,7 @@ private:
     std::vector<Vec3d> paths_;      // per pixel: path length, number of roulette decisions, sum of survival probabilities
     BouncePlanes bounces_;
     GroupPlanes groups_;
+    GroupPlanes strategies_;         // by FoundBy, without light paths
     std::vector<Vec3> gains_;        // of the light groups
     bool mixed_ = false;             // some gain is not 1
     std::vector<CaughtSums> caught_; // only with a shadow catcher

@@ -15,6 +15,10 @@ void fit_columns(TileScratch& s, const Film& film) {
         s.groups.reset();
     else if (!s.groups || s.groups->count() != groups_needed || s.groups->direct.empty() == film.needs_direct_groups())
         s.groups = std::make_unique<GroupColumns>(groups_needed, film.needs_direct_groups());
+    if (!film.needs_strategies())
+        s.strategies.reset();
+    else if (!s.strategies || s.strategies->light.direct.empty() == film.needs_direct_strategies())
+        s.strategies = std::make_unique<StrategyColumns>(film.needs_direct_strategies());
     if (film.needs_roulette() && !s.roulette) s.roulette = std::make_unique<RouletteColumns>();
     if (!film.needs_roulette()) s.roulette.reset();
 }

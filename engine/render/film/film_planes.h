@@ -67,9 +67,12 @@ struct FilmPlanes {
             for (int half = 0; half < 2; ++half)
                 visit_vector(
                     visit, group_name(k, half), [&film, k, half ](size_t pixel) -> auto& { return film.groups_.sum(pixel, half, k); });
-        for (int half = 0; half < 2 && film.splats_.on(); ++half)
-            visit_vector(
-                visit, splat_name(half), [&film, half ](size_t pixel) -> auto& { return film.splats_.sum(pixel, half); });
+        for (size_t k = 0; k < size_t(film.strategies_.groups()); ++k)
+            for (int half = 0; half < 2; ++half)
+                visit_vector(
+                    visit, strategy_name(k, half),
+                    [&film, k, half ](size_t pixel) -> auto& { return film.strategies_.sum(pixel, half, k); });
+        for (int half = 0; half < 2 && film.splats_.on(); ++half) visit_splats(film, visit, half);
         if (!film.paths_.empty())
             visit_vectors(
                 film, visit, "paths", [&film](size_t place) -> auto& { return film.paths_[place]; });
@@ -83,10 +86,27 @@ struct FilmPlanes {
 
     static std::string half_name(int half) { return half == 0 ? "even" : "odd"; }
     static std::string group_name(size_t group, int half) { return name_of(size_t(half), fmt::format("group.{}", group)); }
+    static std::string strategy_name(size_t strategy, int half) {
+        return name_of(size_t(half), fmt::format("strategy.{}", found_by_names[strategy]));
+    }
+    static std::string splat_group_name(size_t group, int half) { return name_of(size_t(half), fmt::format("splats.group.{}", group)); }
     static std::string splat_name(int half) { return name_of(size_t(half), "splats"); }
 
 private:
     static std::string name_of(size_t half, std::string_view what) { return fmt::format("{}.{}", half_name(int(half)), what); }
+
+    template <class AnyFilm, class Visit> static void visit_splats(AnyFilm& film, const Visit& visit, int half) {
+        visit_vector(
+            visit, splat_name(half), [&film, half ](size_t pixel) -> auto& { return film.splats_.sum(pixel, half); });
+        for (size_t k = 0; k < size_t(film.splats_.bounces()); ++k)
+            visit_vector(
+                visit, name_of(size_t(half), fmt::format("splats.bounce.{}", k)),
+                [&film, k, half ](size_t pixel) -> auto& { return film.splats_.bounce_sum(pixel, half, k); });
+        for (size_t k = 0; k < size_t(film.splats_.groups()); ++k)
+            visit_vector(
+                visit, splat_group_name(k, half),
+                [&film, k, half ](size_t pixel) -> auto& { return film.splats_.group_sum(pixel, half, k); });
+    }
 
     // One number per pixel or, if halves have separate weights, one per half.
     template <class AnyFilm, class Visit, class At>

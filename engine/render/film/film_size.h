@@ -11,13 +11,14 @@ struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
     // Radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes.
     int bounces = 0;
-    bool roulette = false; // path length and survival probability of each pixel, paths by bounce
-    bool error = false;    // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
+    bool roulette = false;   // path length and survival probability of each pixel, paths by bounce
+    bool error = false;      // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
+    bool strategies = false; // radiance by the strategy that has found it (found_by.h)
     bool operator==(const PlaneSet&) const = default;
     // True if it includes all planes of `other`.
     bool covers(const PlaneSet& other) const {
         return albedo >= other.albedo && normal >= other.normal && depth >= other.depth && ids >= other.ids && roulette >= other.roulette &&
-               (bounces == other.bounces || other.bounces == 0);
+               strategies >= other.strategies && (bounces == other.bounces || other.bounces == 0);
     }
 };
 
@@ -29,7 +30,7 @@ struct FilmSize {
     bool adaptive = false;
     int groups = 0;       // light groups, one plane each
     bool catches = false; // records shadows (shadow_catcher.h)
-    // Light paths add to it (splat_planes.h). Not together with light groups, which have no splats of their own.
+    // Light paths add to it (splat_planes.h).
     bool light_paths = false;
 };
 

@@ -112,17 +112,30 @@ Result<void> add_film(Film& film, const FilmState& more) {
     return {};
 }
 
-void scale_groups(FilmState& state, std::span<const Vec3> factors) {
+namespace {
+
+// Scales the planes of groups, and makes the plane of their sum `whole` anew.
+template <class GroupName>
+void scale_planes(FilmState& state, std::span<const Vec3> factors, const std::string& whole, const GroupName& group_name) {
     const std::array<std::pair<const char*, float Vec3::*>, 3> channels{{{".R", &Vec3::x}, {".G", &Vec3::y}, {".B", &Vec3::z}}};
-    for (int half = 0; half < 2; ++half)
-        for (const auto& [name, channel] : channels) {
-            std::vector<double>& beauty = state.find(FilmPlanes::half_name(half) + name)->sums;
-            std::ranges::fill(beauty, 0.0);
-            for (size_t k = 0; k < factors.size(); ++k) {
-                std::vector<double>& group = state.find(FilmPlanes::group_name(k, half) + name)->sums;
-                for (size_t i = 0; i < group.size(); ++i) beauty[i] += group[i] *= double(factors[k].*channel);
-            }
+    for (const auto& [name, channel] : channels) {
+        std::vector<double>& sums = state.find(whole + name)->sums;
+        std::ranges::fill(sums, 0.0);
+        for (size_t k = 0; k < factors.size(); ++k) {
+            std::vector<double>& group = state.find(group_name(k) + name)->sums;
+            for (size_t i = 0; i < group.size(); ++i) sums[i] += group[i] *= double(factors[k].*channel);
         }
+    }
+}
+
+} // namespace
+
+void scale_groups(FilmState& state, std::span<const Vec3> factors) {
+    for (int half = 0; half < 2; ++half) {
+        scale_planes(state, factors, FilmPlanes::half_name(half), [&](size_t k) { return FilmPlanes::group_name(k, half); });
+        if (has_light_paths(state))
+            scale_planes(state, factors, FilmPlanes::splat_name(half), [&](size_t k) { return FilmPlanes::splat_group_name(k, half); });
+    }
 }
 
 FilmSize film_size(const FilmState& state) {
@@ -132,6 +145,7 @@ FilmSize film_size(const FilmState& state) {
     size.planes.depth = has("depth");
     size.planes.ids = has("object");
     size.planes.roulette = has("paths.R");
+    size.planes.strategies = has(FilmPlanes::strategy_name(0, 0) + ".R");
     while (size.planes.bounces < max_bounce_planes && has(fmt::format("bounce.{}.R", size.planes.bounces))) ++size.planes.bounces;
     while (size.groups < max_light_groups && has(FilmPlanes::group_name(size_t(size.groups), 0) + ".R")) ++size.groups;
     size.transparent = has("covered");

@@ -14,8 +14,7 @@ void GroupPlanes::reset(size_t pixels, int groups) {
     sums_.assign(2 * pixels * size_t(groups), Vec3d{0, 0, 0});
 }
 
-void GroupPlanes::add(size_t pixel, int half, const TileScratch& tile, int slot, int first_scaled, double scale) {
-    const GroupColumns& columns = *tile.groups;
+void GroupPlanes::add(size_t pixel, int half, const GroupColumns& columns, int slot, int first_scaled, double scale, int indirect) {
     Vec3d* sums = &sums_[place(pixel, half)];
     for (size_t k = 0; k < size_t(groups_); ++k) {
         const Vec3d whole = radiance_in(columns.all[k], slot);
@@ -24,18 +23,9 @@ void GroupPlanes::add(size_t pixel, int half, const TileScratch& tile, int slot,
             continue;
         }
         Vec3d unclamped{0, 0, 0};
-        if (first_scaled > 0) unclamped = columns.has_direct ? radiance_in(columns.direct[k], slot) : whole;
+        if (first_scaled > 0 && int(k) != indirect) unclamped = columns.has_direct ? radiance_in(columns.direct[k], slot) : whole;
         sums[k] = sums[k] + unclamped + (whole - unclamped) * scale;
     }
-}
-
-Vec3d GroupPlanes::mixed(size_t pixel, int half, std::span<const Vec3> gains) const {
-    Vec3d all{0, 0, 0};
-    for (size_t k = 0; k < gains.size(); ++k) {
-        const Vec3& g = gains[k];
-        all = all + sum(pixel, half, k) * Vec3d{double(g.x), double(g.y), double(g.z)};
-    }
-    return all;
 }
 
 } // namespace blush

@@ -1,11 +1,10 @@
-// The beauty split by light group, for the light mix.
+// The beauty split by light group, for the light mix, or by strategy.
 #pragma once
 
 #include "core/vec.h"
-#include "render/kernels/kernel.h"
+#include "render/kernels/group_columns.h"
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace blush {
@@ -20,14 +19,13 @@ public:
     // Clears the planes; 0 groups: none.
     void reset(size_t pixels, int groups);
     int groups() const { return groups_; }
-    // Adds one sample, a slot of the tile; light after `first_scaled`
-    // (0 or 2) or more scatterings is multiplied by `scale` (clamping).
-    void add(size_t pixel, int half, const TileScratch& tile, int slot, int first_scaled, double scale);
+    // Adds one sample, a slot of the tile whose columns these are; light after `first_scaled`
+    // (0 or 2) or more scatterings is multiplied by `scale` (clamping). All light of plane `indirect` has scattered so often, if there
+    // is one: manifold sampling finds it before the direct light is complete.
+    void add(size_t pixel, int half, const GroupColumns& columns, int slot, int first_scaled, double scale, int indirect = -1);
 
     Vec3d& sum(size_t pixel, int half, size_t group) { return sums_[place(pixel, half) + group]; }
     const Vec3d& sum(size_t pixel, int half, size_t group) const { return sums_[place(pixel, half) + group]; }
-    // Sum over all groups, each times its gain.
-    Vec3d mixed(size_t pixel, int half, std::span<const Vec3> gains) const;
 
 private:
     size_t place(size_t pixel, int half) const { return (2 * pixel + size_t(half)) * size_t(groups_); }

@@ -2,10 +2,26 @@
 
 #include "core/math.h"
 
+#include <algorithm>
+
 namespace blush {
 
-void SplatPlanes::reset(size_t pixels) {
+void SplatPlanes::Split::reset(size_t pixels, int planes) {
+    count = pixels > 0 ? planes : 0;
+    sums.assign(2 * pixels * size_t(planes), Vec3d{0, 0, 0});
+}
+
+// Of planes that do not exist, nothing.
+void SplatPlanes::Split::add(size_t pixel, int half, size_t plane, const Vec3d& radiance) {
+    if (count == 0) return;
+    Vec3d& to = sums[place(pixel, half) + std::min(plane, size_t(count) - 1)];
+    to = to + radiance;
+}
+
+void SplatPlanes::reset(size_t pixels, int bounces, int groups) {
     sums_.assign(2 * pixels, Vec3d{0, 0, 0});
+    by_bounce_.reset(pixels, bounces);
+    by_group_.reset(pixels, groups);
     passes_ = {};
 }
 
@@ -30,6 +46,8 @@ std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::
                 }
                 Vec3d& to = sum(size_t(splat.pixel), half);
                 to = to + radiance;
+                by_bounce_.add(size_t(splat.pixel), half, splat.scatterings, radiance);
+                by_group_.add(size_t(splat.pixel), half, splat.group, radiance);
             }
     });
     ++passes_[size_t(half)];

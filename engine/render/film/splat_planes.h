@@ -18,11 +18,15 @@ namespace blush {
 // over the image: half h of a pixel has the value (sum of its samples) / (its samples) + (sum of its splats) / (passes of h).
 class SplatPlanes {
 public:
-    static constexpr size_t bytes_per_pixel = 2 * sizeof(Vec3d);
+    // `bounces`, `groups`: as of reset().
+    static size_t bytes_per_pixel(int bounces, int groups) { return 2 * size_t(1 + bounces + groups) * sizeof(Vec3d); }
 
-    size_t memory_bytes() const { return sums_.capacity() * sizeof(Vec3d); }
-    // Clears the planes; 0 pixels: none.
-    void reset(size_t pixels);
+    size_t memory_bytes() const { return (sums_.capacity() + by_bounce_.memory() + by_group_.memory()) * sizeof(Vec3d); }
+    // Clears the planes; 0 pixels: none. `bounces`: planes by the number of scatterings, the last one of all further ones;
+    // `groups`: planes by light group.
+    void reset(size_t pixels, int bounces = 0, int groups = 0);
+    // Frees the planes by the number of scatterings.
+    void drop_bounces() { by_bounce_ = {}; }
     bool on() const { return !sums_.empty(); }
 
     // Adds the splats of pass `pass`, each pixel's in the order of the lists, and counts it. Not thread-safe. Returns the splats
@@ -31,13 +35,20 @@ public:
                                     const Workers& workers);
 
     // The splats of a half of a pixel, scaled as if its `count` samples were as many as the passes.
-    Vec3d sum_for(size_t pixel, int half, int64_t count) const {
-        const int64_t passes = passes_[size_t(half)];
-        if (passes == 0) return {0, 0, 0};
-        const Vec3d& s = sum(pixel, half);
-        const double scale = double(count) / double(passes); // 1 in most pixels: exactly the sum
-        return {s.x * scale, s.y * scale, s.z * scale};
+    Vec3d sum_for(size_t pixel, int half, int64_t count) const { return scaled(sum(pixel, half), half, count); }
+    // The same of one plane.
+    Vec3d bounce_for(size_t pixel, int half, size_t bounce, int64_t count) const {
+        return scaled(bounce_sum(pixel, half, bounce), half, count);
     }
+    Vec3d group_for(size_t pixel, int half, size_t group, int64_t count) const {
+        return scaled(group_sum(pixel, half, group), half, count);
+    }
+    int bounces() const { return by_bounce_.count; }
+    int groups() const { return by_group_.count; }
+    Vec3d& bounce_sum(size_t pixel, int half, size_t bounce) { return by_bounce_.sums[by_bounce_.place(pixel, half) + bounce]; }
+    const Vec3d& bounce_sum(size_t pixel, int half, size_t bounce) const { return by_bounce_.sums[by_bounce_.place(pixel, half) + bounce]; }
+    Vec3d& group_sum(size_t pixel, int half, size_t group) { return by_group_.sums[by_group_.place(pixel, half) + group]; }
+    const Vec3d& group_sum(size_t pixel, int half, size_t group) const { return by_group_.sums[by_group_.place(pixel, half) + group]; }
     Vec3d& sum(size_t pixel, int half) { return sums_[2 * pixel + size_t(half)]; }
     const Vec3d& sum(size_t pixel, int half) const { return sums_[2 * pixel + size_t(half)]; }
     // Of both halves.
@@ -45,7 +56,24 @@ public:
     void set_passes(const std::array<int64_t, 2>& passes) { passes_ = passes; }
 
 private:
+    // The splats again, in `count` planes: those of one half of a pixel are adjacent.
+    struct Split {
+        int count = 0;
+        std::vector<Vec3d> sums;
+        size_t place(size_t pixel, int half) const { return (2 * pixel + size_t(half)) * size_t(count); }
+        size_t memory() const { return sums.capacity(); }
+        void reset(size_t pixels, int planes);
+        void add(size_t pixel, int half, size_t plane, const Vec3d& radiance);
+    };
+    Vec3d scaled(const Vec3d& sum, int half, int64_t count) const {
+        const int64_t passes = passes_[size_t(half)];
+        if (passes == 0) return {0, 0, 0};
+        const double scale = double(count) / double(passes); // 1 in most pixels: exactly the sum
+        return {sum.x * scale, sum.y * scale, sum.z * scale};
+    }
+
     std::vector<Vec3d> sums_; // the halves of one pixel are adjacent
+    Split by_bounce_, by_group_;
     std::array<int64_t, 2> passes_{};
 };
 

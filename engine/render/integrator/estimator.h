@@ -100,6 +100,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     // Light leaks: reject directions where the shading and the geometric normal disagree.
     const Mask<F> same_side = (indirect.bsdf.wi.z > F(0.f)) == indirect.outward;
     out.continues = scatters && indirect.bsdf.valid && same_side && has_light(next_beta);
+    out.weights.guided = indirect.guided;
     roulette<S, F>(settings, p, indirect, bounce, choice.y(), next_beta, out);
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;

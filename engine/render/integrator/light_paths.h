@@ -265,7 +265,7 @@ template <Features S, class F> void trace_light_paths(const KernelContext& conte
             RayArrays rays = shadow_rays_of(context, scratch.shadows);
             rays.mask = camera_ray_mask;
             trace_any<F>(*context.accel, rays, scratch.shadows.size, false, scratch.blocked);
-            add_splats(context.settings, bounce, scratch);
+            add_splats(context, bounce, scratch);
         }
         std::swap(now, next);
     }

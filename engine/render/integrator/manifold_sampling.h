@@ -36,8 +36,9 @@ template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTa
     return density + min(by_light, F(1e30f));
 }
 
-// Adds the light of a solution to its path.
-inline void add_chain_light(TileScratch& scratch, ManifoldColumns& c, int k, int trials) {
+// Adds the light of a solution to its path, whose vertex is that of `bounce`: the receiver, or the light that was hit.
+inline void add_chain_light(const KernelContext& context, TileScratch& scratch, int k, int trials, int bounce) {
+    ManifoldColumns& c = *scratch.manifolds;
     const int slot = c.slot[k];
     if (c.measures) {
         const float light = luminance(Vec3{c.found.x[k], c.found.y[k], c.found.z[k]}) * float(trials);
@@ -45,16 +46,27 @@ inline void add_chain_light(TileScratch& scratch, ManifoldColumns& c, int k, int
         c.own_moment[slot] += light * light;
         ++c.solutions;
     }
-    scratch.r[slot] += double(c.found.x[k]) * trials;
-    scratch.g[slot] += double(c.found.y[k]) * trials;
-    scratch.b[slot] += double(c.found.z[k]) * trials;
+    const double r = double(c.found.x[k]) * trials, g = double(c.found.y[k]) * trials, b = double(c.found.z[k]) * trials;
+    const bool hit = c.kind[k] & receiver_hit;
+    if (scratch.groups) scratch.groups->add(context.scene->groups.of_light[c.light[k]], slot, r, g, b);
+    if (scratch.strategies && hit) add_hit_by_strategy(*scratch.strategies, slot, r, g, b);
+    if (scratch.strategies && !hit) add_by_strategy(*scratch.strategies, FoundBy::manifold, slot, r, g, b);
+    if (scratch.bounces) {
+        const int scatterings = hit ? bounce : bounce + 1 + (c.root_chain[k] >> chain_count_shift);
+        return add_chained_light(*scratch.bounces, scatterings, slot, r, g, b);
+    }
+    scratch.r[slot] += r;
+    scratch.g[slot] += g;
+    scratch.b[slot] += b;
 }
 
 // The same where trials have ended without finding the solution again.
-template <class F> void add_ended_light(TileScratch& scratch, ManifoldColumns& c, const Walk<F>& w, const Mask<F>& ended) {
+template <class F>
+void add_ended_light(const KernelContext& context, TileScratch& scratch, const Walk<F>& w, int bounce, const Mask<F>& ended) {
+    const ManifoldColumns& c = *scratch.manifolds;
     const Mask<F> hit = as_mask((gather(c.kind, w.index) & int32_t(receiver_hit)) != 0);
     const Int<F> times = select(hit, Int<F>(1), w.trials);
-    for_each_lane(bits(ended), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), lane(times, k)); });
+    for_each_lane(bits(ended), [&](int k) { add_chain_light(context, scratch, lane(w.index, k), lane(times, k), bounce); });
 }
 
 // What becomes of walks in one round.
@@ -134,7 +146,7 @@ template <class F> F cos_at_light(const ManifoldColumns& c, const Walk<F>& w) {
 
 // Hits of paths whose chain has been traced: they get all their light, none, or trials decide.
 template <Features S, class F>
-void weigh_hits(const KernelContext& context, TileScratch& scratch, const Mask<F>& retraced, Walk<F>& w, WalkRound<F>& round) {
+void weigh_hits(const KernelContext& context, TileScratch& scratch, int bounce, const Mask<F>& retraced, Walk<F>& w, WalkRound<F>& round) {
     ManifoldColumns& c = *scratch.manifolds;
     const ChainEnd<F> end = end_of_chain<F>(c, w);
     const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f));
@@ -153,7 +165,7 @@ void weigh_hits(const KernelContext& context, TileScratch& scratch, const Mask<F
     for_each_lane(lanes, [&](int k) { c.random[lane(w.index, k)] = lane(random, k); });
     // Chains of paths that cannot be traced again have no solution.
     const Mask<F> all = retraced && (!round.ends || !end.valid || u >= share.kept), tried = retraced && !all && share.coin > F(0.f);
-    for_each_lane(bits(all), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), 1); });
+    for_each_lane(bits(all), [&](int k) { add_chain_light(context, scratch, lane(w.index, k), 1, bounce); });
     w.trials = select(tried, Int<F>(1), w.trials);
     round.alive = round.alive && (!retraced || tried);
     round.begins = round.begins || tried;
@@ -196,7 +208,7 @@ template <Features S, class F> void converge(const KernelContext& context, TileS
     const Mask<F> same = again && as_mask(w.chain == gather(c.root_chain, w.index)) && dot(off, off) <= gather(c.same, w.index);
     // The light of a hit is that of manifold sampling then.
     const Mask<F> solution = same && as_mask((gather(c.kind, w.index) & int32_t(receiver_hit)) == 0);
-    for_each_lane(bits(solution), [&](int k) { add_chain_light(scratch, c, lane(w.index, k), lane(w.trials, k)); });
+    for_each_lane(bits(solution), [&](int k) { add_chain_light(context, scratch, lane(w.index, k), lane(w.trials, k), bounce); });
     round.alive = round.alive && !same;
     round.missed = round.missed || (again && !same);
     if (any(solved)) keep_solutions<S, F>(context, c, end, bounce, solved, w, round);
@@ -206,7 +218,7 @@ template <Features S, class F> void converge(const KernelContext& context, TileS
 template <Features S, class F>
 void take_steps(const KernelContext& context, TileScratch& scratch, int bounce, Walk<F>& w, WalkRound<F>& round) {
     const Mask<F> retraced = (round.ends || round.failed) && as_mask(w.state == int32_t(retraces));
-    if (any(retraced)) weigh_hits<S, F>(context, scratch, retraced, w, round);
+    if (any(retraced)) weigh_hits<S, F>(context, scratch, bounce, retraced, w, round);
     const Mask<F> traced = (round.ends || round.failed) && !retraced;
     if (!any(traced)) return;
     ManifoldColumns& c = *scratch.manifolds;
@@ -254,14 +266,14 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] Mask<F> advance_w
     const Mask<F> begins = (round.begins || round.missed) && round.alive;
     if (any(begins)) {
         const Mask<F> ended = begin_walks<F>(*context.scene, c, w, begins, round.missed);
-        add_ended_light<F>(scratch, c, w, ended);
+        add_ended_light<F>(context, scratch, w, bounce, ended);
         round.alive = round.alive && !ended;
     }
     const Mask<F> cut = round.alive && as_mask(w.trials >= max_trials(c));
     if (any(cut)) {
         c.cut += count(cut);
         if (!c.measures) scratch.truncated_paths += count(cut);
-        add_ended_light<F>(scratch, c, w, cut);
+        add_ended_light<F>(context, scratch, w, bounce, cut);
     }
     const Mask<F> alive = round.alive && !cut;
     store_walk<F>(c, w, bits(alive));

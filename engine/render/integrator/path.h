@@ -30,13 +30,14 @@ template <class F> struct FirstHit {
     Int<F> object, material;
 };
 
-// Weights of a step. Only read by path_log; dead code in kernels. Valid where the step emits, connects or continues.
+// Weights of a step. Kernels read only `guided`; the others are dead code there. Valid where the step emits, connects or continues.
 template <class F> struct StepWeights {
     F emission;                         // MIS weight of emission at the hit
     F light, light_pdf, light_bsdf_pdf; // MIS weight of NEE; pdf of the light sample; pdf of the BSDF for it
     F survival;                         // survival probability of Russian roulette; 1 if not applied
     Mask<F> rr_applied;                 // Russian roulette was applied
     Vec<F> arriving;                    // throughput at the vertex, including absorption along the segment
+    F guided = F(0.f);                  // share of path guiding in the density of the next direction
 };
 
 // First two vertices of a path, for connections by path reuse (path_reuse.h).

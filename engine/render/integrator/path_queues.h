@@ -3,6 +3,7 @@
 
 #include "render/bvh/brute_force.h"
 #include "render/integrator/path.h"
+#include "render/integrator/strategy_sums.h"
 #include "render/kernels/kernel.h"
 
 namespace blush::inline BLUSH_ISA {
@@ -212,6 +213,7 @@ inline void add_shadow_light(TileScratch& scratch, const ShadowQueue& q, int k) 
     scratch.b[slot] += double(q.b[k]);
     if (scratch.trials) (*scratch.trials)[size_t(q.trial[k])].arrived = true;
     if (scratch.groups) scratch.groups->add(q.group[k], slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
+    if (scratch.strategies) add_by_strategy(*scratch.strategies, FoundBy::nee, slot, double(q.r[k]), double(q.g[k]), double(q.b[k]));
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -75,6 +75,10 @@ inline void stash_unshared_radiance(ReuseColumns& reuse, TileScratch& scratch, i
         RadianceColumns& group = scratch.groups->all[k];
         stash(group.r, group.g, group.b, reuse.unshared_groups[k]);
     }
+    for (size_t k = 0; scratch.strategies && k < scratch.strategies->unshared.size(); ++k) {
+        RadianceColumns& light = scratch.strategies->light.all[k];
+        stash(light.r, light.g, light.b, scratch.strategies->unshared[k]);
+    }
 }
 
 template <class F> Vec<F> gather_columns(const float* x, const float* y, const float* z, const Int<F>& i) {
@@ -265,9 +269,12 @@ template <class F> [[gnu::flatten]] void share_batch(const KernelContext& contex
             RadianceColumns& after = scratch.bounces->after[size_t(k)];
             distribute<F>(reuse, batch, group_size, share, {after.r, after.g, after.b});
         }
-        // Planes of light groups are shared in the same way.
+        // Planes of light groups and of strategies are shared in the same way.
         if (scratch.groups)
             for (RadianceColumns& group : scratch.groups->all) distribute<F>(reuse, batch, group_size, share, {group.r, group.g, group.b});
+        if (scratch.strategies)
+            for (RadianceColumns& light : scratch.strategies->light.all)
+                distribute<F>(reuse, batch, group_size, share, {light.r, light.g, light.b});
     }
     batch.groups = batch.vertices = 0;
 }
@@ -307,6 +314,10 @@ template <class F> void reuse_paths(const KernelContext& context, const TileJob&
     for (size_t k = 0; k < reuse.unshared_groups.size(); ++k) {
         RadianceColumns& group = scratch.groups->all[k];
         add_unshared(reuse.unshared_groups[k], {group.r, group.g, group.b});
+    }
+    for (size_t k = 0; scratch.strategies && k < scratch.strategies->unshared.size(); ++k) {
+        RadianceColumns& light = scratch.strategies->light.all[k];
+        add_unshared(scratch.strategies->unshared[k], {light.r, light.g, light.b});
     }
 }
 

@@ -117,6 +117,7 @@ template <class F> struct IndirectSample {
     Vec<F> wi;          // world
     F pdf_ratio;        // cosine pdf / pdf of the mixture with caustic guiding; 1 without
     Mask<F> outward;    // wi leaves to the side of ng
+    F guided = F(0.f);  // share of guiding in the density of the mixture
 };
 
 // Caustic guiding: replaces the direction by one towards a caster with the guide's share, and the pdf by that of the mixture
@@ -135,6 +136,7 @@ template <class F> [[gnu::always_inline]] inline void guide_indirect(const Scene
     s.bsdf.pdf = select(mixes, guided_pdf<F>(scene.guides, guide, s.wi, cosine), s.bsdf.pdf);
     s.pdf_ratio = select(mixes && s.bsdf.valid, cosine / s.bsdf.pdf, F(1.f));
     s.bsdf.weight = select<F>(mixes, p.bsdf.diffuse * s.pdf_ratio, s.bsdf.weight);
+    s.guided = select(mixes, min(max(F(1.f - (1.f - guide.share) * s.pdf_ratio), F(0.f)), F(1.f)), F(0.f));
 }
 
 // Samples wi with the BSDF or, on diffuse surfaces, towards a caustic caster; its weight is f |cos| / pdf. `choice` selects the
@@ -145,7 +147,7 @@ template <Features S, class F>
     F lobe = choice;
     if constexpr (S.has(Feature::transmission))
         if (scene.panes) lobe = lobe * setup.scatter_share; // lobes other than the straight one keep their frequency
-    IndirectSample<F> s{sample<S, F>(p.bsdf, p.shading.wo, direction.x(), direction.y(), lobe), {}, F(1.f), {}};
+    IndirectSample<F> s{sample<S, F>(p.bsdf, p.shading.wo, direction.x(), direction.y(), lobe), {}, F(1.f), {}, F(0.f)};
     if constexpr (S.has(Feature::transmission))
         // rounding selected the straight lobe
         if (scene.panes)

@@ -36,7 +36,9 @@ inline SplatPixel splat_pixel(const FilterTable& filter, float position, float u
 }
 
 // Adds the splats of the unoccluded connections of these vertices.
-inline void add_splats(const EstimatorSettings& settings, int bounce, TileScratch& scratch) {
+inline void add_splats(const KernelContext& context, int bounce, TileScratch& scratch) {
+    const EstimatorSettings& settings = context.settings;
+    const int32_t* groups = context.scene->groups.of_light;
     const ShadowQueue& q = scratch.shadows;
     LightPathColumns& columns = *scratch.light_paths;
     const int image_width = int(settings.width), image_height = int(settings.height);
@@ -49,7 +51,9 @@ inline void add_splats(const EstimatorSettings& settings, int bounce, TileScratc
         if (x.pixel < 0 || y.pixel < 0 || x.pixel >= image_width || y.pixel >= image_height || !(x.weight * y.weight > 0)) continue;
         const float scale = luminance(columns.emitted[size_t(q.slot[k])].flux) * (x.weight * y.weight);
         const int pixel = y.pixel * image_width + x.pixel;
-        columns.splats.push_back({pixel, Vec3{q.r[k], q.g[k], q.b[k]} * scale});
+        const int32_t light = columns.emitted[size_t(q.slot[k])].light;
+        columns.splats.push_back(
+            {pixel, Vec3{q.r[k], q.g[k], q.b[k]} * scale, uint16_t(std::min(bounce + 1, 65535)), uint16_t(groups ? groups[light] : 0)});
         if (columns.measures) columns.moments.push_back({pixel, columns.amount[k] * scale, columns.others[k]});
     }
 }

@@ -110,6 +110,7 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
             scratch.g[slot] += g;
             scratch.b[slot] += b;
             if (scratch.groups) scratch.groups->add(scene.groups.of_part[lane(p.part, i)], slot, r, g, b);
+            if (scratch.strategies) add_hit_by_strategy(*scratch.strategies, slot, r, g, b);
         });
     }
     const F over = 1.f / select(passes, p.through.probability, F(1.f));

@@ -8,6 +8,7 @@
 #include "render/integrator/manifold_sampling.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/path_reuse.h"
+#include "render/integrator/strategy_sums.h"
 #include "render/integrator/thin_transmission.h"
 #include "render/kernels/kernel.h"
 #include "render/kernels/stage_timer.h"
@@ -43,7 +44,9 @@ template <class F> void store_first_hit(FirstHitColumns& c, int k, FirstHit<F> f
     store(c.material + k, first.material);
 }
 
+// Adds light that rays have met.
 template <class F> void add_light(TileScratch& scratch, const int32_t* slots, const Vec<F>& radiance, const Mask<F>& lanes) {
+    if (scratch.strategies) add_hits_by_strategy<F>(*scratch.strategies, slots, radiance, lanes);
     for_each_lane(bits(lanes), [&](int i) {
         const int slot = slots[i];
         scratch.r[slot] += double(lane(radiance.x, i));
@@ -118,6 +121,7 @@ template <Features S, class F>
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
     if (scratch.groups) scratch.groups->clear(n);
+    if (scratch.strategies) scratch.strategies->clear(n);
     if (!scratch.roulette) return;
     std::fill_n(scratch.roulette->length.data, n, 0.f);
     std::fill_n(scratch.roulette->num_rr_applied.data, n, 0.f);
@@ -186,6 +190,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             if (samples_manifolds<S>(*context.scene)) add_receivers<S, F>(context, scratch, path, step, bounce, active);
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
+        if (scratch.strategies) note_guided<F>(*scratch.strategies, now.slot + k, step);
         if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
         if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
         if (scratch.photons) record_photons<F>(*scratch.photons, path, step, bounce, step.continues);
@@ -226,7 +231,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
     StageTimer timer(scratch.stages);
     generate_paths<S, F>(context, job, scratch);
     timer.end(Stage::generate);
-    if (scratch.bounces) scratch.bounces->recorded = 0;
+    if (scratch.bounces) scratch.bounces->begin();
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
     bool unshared_is_stashed = false;
@@ -248,7 +253,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         const int64_t light_ticks = shade_paths<S, F>(context, scratch, *now, *next, bounce);
         scratch.stages[Stage::light] += light_ticks;
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
-        if (scratch.groups && bounce == 1) scratch.groups->note_direct(job.paths());
+        if (bounce == 1 && (scratch.groups || scratch.strategies)) note_direct_light(scratch, job.paths());
         scratch.shadow_rays += scratch.shadows.size;
         if (reuses && bounce == 1) {
             stash_unshared_radiance(*scratch.reuse, scratch, job.paths());
@@ -259,9 +264,12 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         if constexpr (S.has(Feature::light_paths))
             if (samples_manifolds<S>(*context.scene)) sample_manifolds<S, F>(context, scratch, *now, bounce);
         timer.end(Stage::shadow);
+        if (scratch.strategies) scratch.strategies->next_bounce();
         if (scratch.guiding) scratch.guiding->note_arrived(radiance_of);
         std::swap(now, next);
     }
+    if constexpr (S.has(Feature::light_paths))
+        if (scratch.bounces) finish_chained_light(scratch, job.paths());
     if (scratch.guiding) scratch.guiding->finish(radiance_of);
     if (!unshared_is_stashed) return;
     reuse_paths<F>(context, job, scratch);

@@ -7,11 +7,13 @@
 #include "render/film/path_counts.h"
 #include "render/film/stage_times.h"
 #include "render/integrator/estimator_settings.h"
+#include "render/kernels/bounce_columns.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/light_path_columns.h"
 #include "render/kernels/manifold_columns.h"
 #include "render/kernels/reuse_columns.h"
+#include "render/kernels/strategy_columns.h"
 #include "render/lights/escape_trial.h"
 #include "render/lights/guiding_trial.h"
 #include "render/lights/shadow_trial.h"
@@ -66,13 +68,6 @@ struct FirstHitColumns {
     Column<int32_t> object, material; // material: index into the material table, -1 on a miss
 };
 
-// The radiance of each path by bounce: after[k] holds light of at most k scatterings. Never longer than the film requires.
-struct BounceColumns {
-    explicit BounceColumns(int count) : after(size_t(count)) {}
-    std::vector<RadianceColumns> after;
-    int recorded = 0; // number of valid columns; if all paths ended earlier, the others equal the final radiance
-};
-
 // Statistics of path lengths and Russian roulette.
 struct RouletteColumns {
     Column<float> length;                   // vertices of each path, including the one where it escapes
@@ -99,6 +94,7 @@ struct TileScratch {
     std::unique_ptr<FirstHitColumns> first;           // null: not needed
     std::unique_ptr<BounceColumns> bounces;           // null: not needed
     std::unique_ptr<GroupColumns> groups;             // null: no light mix
+    std::unique_ptr<StrategyColumns> strategies;      // null: not needed
     std::unique_ptr<ReuseColumns> reuse;              // allocated by the first kernel with path reuse
     std::unique_ptr<RouletteColumns> roulette;        // null: not needed
     std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes

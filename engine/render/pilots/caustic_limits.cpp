@@ -12,8 +12,9 @@ const char* why_no_caustics(const RenderSettings& settings, const RenderScene& s
     if (tables.blends) return "a surface is blended";
     if (tables.panes) return "a pane transmits light straight through";
     if (tables.links.lit_sets) return "a light is linked to objects";
-    if (film.groups > 0) return "the light mix is on";
-    if (film.planes.bounces > 0 || film.planes.roulette) return "a layer or a view shows paths by their length";
+    if (film.planes.roulette) return "a view shows paths by their length";
+    // Direct light by group is complete only after manifold sampling has added indirect light.
+    if (film.groups > 0 && settings.clamp.limit > 0) return "the light mix is on and samples are clamped";
     if (film.catches) return "there is a shadow catcher";
     return nullptr;
 }

@@ -5,10 +5,10 @@
 namespace blush::TEST_FILE {
 namespace {
 
-TEST(BounceEnergy, IsTheMeanAndItsShareOfLuminance) {
+TEST(PlaneEnergy, IsTheMeanAndItsShareOfLuminance) {
     Frame frame;
     frame.bounces = {{{1, 1, 1}, {3, 3, 3}}, {{0.5f, 0, 1}, {0.5f, 0, 0}}, {{1, 1, 1}, {1, 1, 1}}};
-    const std::vector<BounceEnergy> energies = bounce_energy(frame);
+    const std::vector<PlaneEnergy> energies = bounce_energy(frame);
     ASSERT_EQ(energies.size(), 3u);
     EXPECT_EQ(energies[0].name, "0");
     EXPECT_EQ(energies[2].name, "2+");
@@ -19,7 +19,7 @@ TEST(BounceEnergy, IsTheMeanAndItsShareOfLuminance) {
     EXPECT_NEAR(energies[1].share, second / (3 + second), 1e-6);
 }
 
-TEST(BounceEnergy, OfABlackImageOrOneWithoutPlanes) {
+TEST(PlaneEnergy, OfABlackImageOrOneWithoutPlanes) {
     EXPECT_TRUE(bounce_energy({}).empty());
     Frame black;
     black.bounces = {{{0, 0, 0}}, {{0, 0, 0}}};

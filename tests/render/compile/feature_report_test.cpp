@@ -222,8 +222,9 @@ TEST(FeatureReport, BytesOfTheEnvironmentAreThoseAllocated) {
 
 TEST(FeatureReport, BytesOfTheFilmAreThoseAllocated) {
     constexpr int width = 40, height = 30;
-    for (const PlaneSet& planes : {PlaneSet{}, PlaneSet{.albedo = true}, PlaneSet{.depth = true}, PlaneSet{.ids = true},
-                                   PlaneSet{.bounces = 5}, PlaneSet{true, true, true, true, default_bounce_planes}})
+    for (const PlaneSet& planes :
+         {PlaneSet{}, PlaneSet{.albedo = true}, PlaneSet{.depth = true}, PlaneSet{.ids = true}, PlaneSet{.bounces = 5},
+          PlaneSet{.strategies = true}, PlaneSet{true, true, true, true, default_bounce_planes}})
         for (const auto& [transparent, adaptive] : {std::pair{false, false}, {true, false}, {true, true}}) {
             for (const auto& [catches, light_paths] : {std::pair{false, false}, {true, false}, {false, true}}) {
                 const FilmSize size{width, height, planes, transparent, adaptive, 0, catches, light_paths};

@@ -260,7 +260,7 @@ TEST(SplatPlanes, AreNotAllocatedWithoutLightPaths) {
     Film without, with;
     without.reset({.width = 8, .height = 4});
     with.reset(with_light_paths(8, 4));
-    EXPECT_EQ(with.memory_bytes(), without.memory_bytes() + 8 * 4 * SplatPlanes::bytes_per_pixel);
+    EXPECT_EQ(with.memory_bytes(), without.memory_bytes() + 8 * 4 * SplatPlanes::bytes_per_pixel(0, 0));
     EXPECT_FALSE(without.has_light_paths());
     const FilmState state = save_film(without);
     EXPECT_FALSE(state.find("even.splats.R") || film_size(state).light_paths);

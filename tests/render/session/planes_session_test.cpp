@@ -58,13 +58,14 @@ TEST(SessionPlanes, SurviveEdits) {
 }
 
 TEST(PlaneSet, CoversItsSubsets) {
-    const PlaneSet all{true, true, true, true, 6, true};
+    const PlaneSet all{true, true, true, true, 6, true, false, true};
     EXPECT_TRUE(all.covers(PlaneSet{}));
     EXPECT_TRUE(all.covers(all));
     EXPECT_TRUE(all.covers({.depth = true}));
     EXPECT_FALSE(all.covers({.bounces = 4})) << "another number of bounce planes differs";
     EXPECT_FALSE(PlaneSet{}.covers({.roulette = true}));
     EXPECT_FALSE(PlaneSet{}.covers({.bounces = 4}));
+    EXPECT_FALSE(PlaneSet{}.covers({.strategies = true}));
 }
 
 } // namespace

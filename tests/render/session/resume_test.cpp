@@ -18,7 +18,7 @@ using State = SessionStatus::State;
 using test::Event;
 using test::RecordingSession;
 
-constexpr PlaneSet everything{true, true, true, true, 4, true};
+constexpr PlaneSet everything{true, true, true, true, 4, true, false, true};
 
 Project small_project() {
     Project project = test::sample_project().project;
@@ -32,6 +32,7 @@ Project small_project() {
 void expect_same_planes(const Frame& a, const Frame& b) {
     EXPECT_TRUE(test::same_pixels(a, b));
     EXPECT_EQ(a.bounces, b.bounces);
+    EXPECT_EQ(a.strategies, b.strategies);
     EXPECT_EQ(a.path_length, b.path_length);
     EXPECT_EQ(a.survival, b.survival);
     EXPECT_EQ(a.path_counts, b.path_counts);

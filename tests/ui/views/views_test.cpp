@@ -187,6 +187,14 @@ TEST(AovView, ListsAovsAndWhatTheyNeed) {
     EXPECT_EQ(planes_of(AovView{Show::depth}), PlaneSet{});
     EXPECT_EQ(planes_of(AovView{Show::bounces, 3}).bounces, default_bounce_planes);
     EXPECT_TRUE(planes_of(AovView{Show::error}).error);
+    EXPECT_FALSE(find(list, {Show::strategy, 2}).needs.empty());
+    EXPECT_TRUE(planes_of(AovView{Show::strategy, 2}).strategies);
+    Frame by_strategy = f;
+    by_strategy.strategies.assign(size_t(found_by_count), std::vector<Vec3>(f.rgba.size() / 4, Vec3{0, 0, 0}));
+    by_strategy.strategies[size_t(FoundBy::nee)][1] = {1, 2, 3};
+    EXPECT_TRUE(find(aov_list(&by_strategy), {Show::strategy, 2}).needs.empty());
+    EXPECT_EQ(find(list, {Show::strategy, 2}).name, "Next event estimation");
+    EXPECT_EQ(shown_at(by_strategy, image_view(AovView{Show::strategy, 2}, 0), 1), (Vec3{1, 2, 3}));
     EXPECT_TRUE(PlaneSet{}.covers(planes_of(AovView{Show::error}))) << "the error needs no new image";
 
     AovView at;

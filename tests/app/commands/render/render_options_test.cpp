@@ -229,6 +229,7 @@ TEST(Layers, TheFilmHoldsOnlyWhatTheyNeed) {
     EXPECT_EQ(planes_of(*parse_layers("error,samples")), PlaneSet{});
     EXPECT_EQ(planes_of(*parse_layers("bounces")).bounces, 8);
     EXPECT_EQ(planes_of(*parse_layers("bounces=2,id")), (PlaneSet{.ids = true, .bounces = 2}));
+    EXPECT_EQ(planes_of(*parse_layers("strategies,depth")), (PlaneSet{.depth = true, .strategies = true}));
     EXPECT_EQ(planes_of(*parse_layers("normal,id")), (PlaneSet{.normal = true, .ids = true}));
 }
 
