@@ -95,7 +95,7 @@ Cell error_cell(const Frame& frame) {
         return {12, "error: highlights missing?",
                 "Lamps in mirrors or glass make highlights that are too small for the samples so far. Some may be missing from the image, "
                 "so its error is not known. More samples or a larger image find them.",
-                tone::text, 8};
+                tone::warning, 8};
     if (!e.known) return {9, "error not known yet", "Not enough samples yet to estimate the error.", tone::text, 8};
     const bool older = frame.error_samples < frame.samples;
     const std::string of = older ? fmt::format("the image as it was after {} samples per pixel", frame.error_samples) : "the image";

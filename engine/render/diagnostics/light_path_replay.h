@@ -17,7 +17,7 @@ struct ReplayedLightVertex {
 struct ReplayedLightPath {
     EmittedPath emitted;
     Vec3 light{0, 0, 0}; // of all its connections to the pixel
-    std::vector<ReplayedLightVertex> vertices;
+    std::vector<ReplayedLightVertex> vertices = {};
 };
 struct PixelLightPaths {
     int64_t connections = 0; // that give light to the pixel

@@ -21,8 +21,8 @@ struct Planes {
 };
 
 SnapshotInput full_input(const Planes& p) {
-    SnapshotInput input{2,        1,          p.rgba, p.denoised, p.albedo, p.normal, p.depth, p.error, p.samples,
-                        p.object, p.material, {},     {},         {},       {},       false,   {}};
+    SnapshotInput input{2,          1,  p.rgba, p.denoised, p.albedo, p.normal, p.depth, p.error, p.samples, p.object,
+                        p.material, {}, {},     {},         {},       {},       {},      false,   {}};
     SnapshotMetadata& m = input.metadata;
     m.version = "0.1.0";
     m.scene = "cornell.gltf";

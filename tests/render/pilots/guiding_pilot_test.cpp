@@ -4,6 +4,7 @@
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <atomic>
