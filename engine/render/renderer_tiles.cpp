@@ -1,10 +1,10 @@
 // Renders samples, tile by tile.
 #include "render/diagnostics/fault_finder.h"
+#include "render/diagnostics/highlight_pilot.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
 #include "render/kernels/stage_timer.h"
 #include "render/pilots/edge_pilot.h"
-#include "render/pilots/highlight_pilot.h"
 #include "render/pilots/reuse_pilot.h"
 #include "render/renderer_state.h"
 

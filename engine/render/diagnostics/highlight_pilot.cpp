@@ -1,4 +1,4 @@
-#include "render/pilots/highlight_pilot.h"
+#include "render/diagnostics/highlight_pilot.h"
 
 #include "core/math.h"
 #include "render/diagnostics/replay.h"

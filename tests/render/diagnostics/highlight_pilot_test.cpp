@@ -1,6 +1,6 @@
 // The pilot of small highlights: its estimate against the geometry of a mirror, and that it makes errors unknown where both halves of the
 // samples miss a highlight.
-#include "render/pilots/highlight_pilot.h"
+#include "render/diagnostics/highlight_pilot.h"
 
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/scenes.h"
