@@ -4,6 +4,7 @@
 #include "app/commands/json_output.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/write_image.h"
+#include "render/film/film_merger.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,11 +23,10 @@ struct MergeCommand {
     CommonOptions common;
 };
 
+// A file whose pixels are read only while they are merged.
 struct Input {
     std::string file;
-    LayeredImage image;
     SnapshotMetadata metadata;
-    std::optional<FilmState> film;
 };
 
 struct Merged {
@@ -35,31 +35,26 @@ struct Merged {
     bool exact = false; // from sums instead of means
 };
 
-Result<Input> read_input(const std::string& file) {
-    Result<LayeredImage> image = read_layers(file);
-    if (!image) return image.error();
-    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
+Result<Input> read_head(const std::string& file) {
+    const auto texts = read_metadata(file);
+    if (!texts) return texts.error();
+    Result<SnapshotMetadata> metadata = read_snapshot_metadata(*texts);
     if (!metadata) return in_file(metadata.error(), file);
-    Input input{file, *std::move(image), *metadata, {}};
     if (metadata->spp < 1) return Error{file, "has no number of samples", "blush:spp"};
     if (metadata->settings.adaptive)
         return Error{file, "adaptive renders cannot be merged: the sampling of each depends on all its samples", ""};
-    if (metadata->film.empty()) return input;
-    Result<FilmState> film = film_in_file(input.image, *metadata);
-    if (!film) return in_file(film.error(), file);
-    input.film = *std::move(film);
-    return input;
+    return Input{file, *std::move(metadata)};
 }
 
-// Checks that `b` is another sample range of the same image.
-Result<void> expect_same_image(const Input& a, const Input& b) {
+// Checks that `b` is the next sample range of the same image.
+Result<void> expect_next(const Input& a, const Input& b) {
     const auto differs = [&](const char* what) { return Error{b.file, fmt::format("{} than that of {}", what, a.file), ""}; };
     const SnapshotMetadata &m = a.metadata, &n = b.metadata;
     if (m.scene_hash != n.scene_hash || m.edits != n.edits) return differs("shows another scene");
+    if (m.version != n.version) return differs(fmt::format("was rendered by another version of Blush, {},", n.version).c_str());
     RenderSettings settings = m.settings;
     settings.first_sample = n.settings.first_sample;
     if (!same_image(settings, n.settings)) return differs("was rendered with other settings");
-    if (a.image.width != b.image.width || a.image.height != b.image.height) return differs("has another size");
     if (n.first_sample < m.last_sample) return Error{b.file, fmt::format("contains sample {}, as does {}", n.first_sample, a.file), ""};
     if (n.first_sample > m.last_sample)
         return Error{b.file,
@@ -69,16 +64,17 @@ Result<void> expect_same_image(const Input& a, const Input& b) {
     return {};
 }
 
-Result<std::vector<Input>> read_inputs(const std::vector<std::string>& files) {
+// In the order of their samples.
+Result<std::vector<Input>> read_heads(const std::vector<std::string>& files) {
     std::vector<Input> inputs;
     for (const std::string& file : files) {
-        Result<Input> input = read_input(file);
+        Result<Input> input = read_head(file);
         if (!input) return input.error();
         inputs.push_back(*std::move(input));
     }
     std::ranges::stable_sort(inputs, {}, [](const Input& i) { return i.metadata.first_sample; });
     for (size_t i = 1; i < inputs.size(); ++i)
-        if (const Result<void> same = expect_same_image(inputs[i - 1], inputs[i]); !same) return same.error();
+        if (const Result<void> next = expect_next(inputs[i - 1], inputs[i]); !next) return next.error();
     return inputs;
 }
 
@@ -100,34 +96,56 @@ SnapshotMetadata merged_metadata(const std::vector<Input>& inputs) {
     return m;
 }
 
+// The file again, which may have been replaced since its head was read.
+Result<LayeredImage> read_pixels(const Input& input) {
+    Result<LayeredImage> image = read_layers(input.file);
+    if (!image) return image.error();
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
+    if (!metadata || *metadata != input.metadata) return Error{input.file, "changed while it was merged", ""};
+    return image;
+}
+
 // ---- merging sums
 
-Result<void> write_sum(const MergeCommand& c, std::vector<Input>& inputs, SnapshotMetadata& metadata) {
-    FilmState sum = *std::move(inputs.front().film);
-    for (size_t i = 1; i < inputs.size(); ++i) {
-        Result<FilmState> more = merge_films(sum, *inputs[i].film, metadata.settings);
-        if (!more) return in_file(more.error(), inputs[i].file);
-        sum = *std::move(more);
+// The layers of the merged image: those of the first file.
+Layers layers_of(const LayeredImage& image) {
+    const auto has = [&](const char* channel) { return image.find(channel) != nullptr; };
+    const bool groups = std::ranges::any_of(image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
+    return {.albedo = has("albedo.R"),
+            .normal = has("normal.X"),
+            .depth = has("depth.Z"),
+            .error = has("error.R"),
+            .samples = has("samples.Y"),
+            .ids = has("id.object"),
+            .film = true,
+            .groups = groups};
+}
+
+Result<void> write_sum(const MergeCommand& c, const std::vector<Input>& inputs, Merged& merged) {
+    SnapshotMetadata& metadata = merged.metadata;
+    FilmMerger merger(metadata.settings);
+    std::optional<Layers> layers;
+    for (const Input& input : inputs) {
+        Result<LayeredImage> image = read_pixels(input);
+        if (!image) return image.error();
+        if (!layers) layers = layers_of(*image);
+        const Result<FilmState> part = film_in_file(*image, input.metadata);
+        if (!part) return in_file(part.error(), input.file);
+        if (part->first_sample != input.metadata.first_sample || part->samples != input.metadata.spp)
+            return Error{input.file, "its samples are not those that its header names", "blush:film"};
+        if (const Result<void> added = merger.add(*part); !added) return in_file(added.error(), input.file);
     }
+    const FilmState sum = merger.sum();
     const Result<ResolvedFilm> resolved = resolve_film(sum, metadata.settings, c.common.threads);
     if (!resolved) return in_file(resolved.error(), inputs.front().file);
     metadata.error = error_text(resolved->frame.error);
     metadata.film = film_json(sum);
-    const auto has = [&](const char* channel) { return inputs.front().image.find(channel) != nullptr; };
-    const bool groups =
-        std::ranges::any_of(inputs.front().image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
-    const Layers layers{.albedo = has("albedo.R"),
-                        .normal = has("normal.X"),
-                        .depth = has("depth.Z"),
-                        .error = has("error.R"),
-                        .samples = has("samples.Y"),
-                        .ids = has("id.object"),
-                        .film = true,
-                        .groups = groups};
+    merged.width = sum.width;
+    merged.height = sum.height;
     const std::vector<LosslessPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
-    if (layers.error) extra.error = resolved->error;
-    const Result<int64_t> written = write_exr_image(c.output, resolved->frame, extra, layers, metadata);
+    if (layers->error) extra.error = resolved->error;
+    const Result<int64_t> written = write_exr_image(c.output, resolved->frame, extra, *layers, metadata);
     return written ? Result<void>() : written.error();
 }
 
@@ -143,46 +161,63 @@ std::optional<Rule> rule_of(const LayeredImage::Channel& channel) {
     return name.starts_with("error.") ? Rule::root_of_squares : Rule::mean;
 }
 
-// In double precision, rounded once. Standard errors are combined as for independent inputs.
-Result<LayeredImage::Channel> mean_channel(const std::vector<Input>& inputs, const LayeredImage::Channel& first, Rule rule, int64_t spp) {
-    LayeredImage::Channel merged = first;
-    if (rule == Rule::first) return merged;
-    std::vector<double> sums(first.values.size());
-    for (const Input& input : inputs) {
-        const LayeredImage::Channel* channel = input.image.find(first.name);
-        if (!channel || channel->values.size() != sums.size()) return Error{input.file, "has no channel " + first.name, ""};
-        const double weight = double(input.metadata.spp);
-        for (size_t i = 0; i < sums.size(); ++i) {
-            const double value = channel->values[i];
-            sums[i] += rule == Rule::mean ? weight * value : rule == Rule::sum ? value : weight * value * weight * value;
-        }
+// A channel of the merged image while the files are read, one after the other.
+struct ChannelSum {
+    LayeredImage::Channel first; // of the first file
+    Rule rule = Rule::mean;
+    std::vector<double> sums = {};
+};
+
+// In double precision. Standard errors are combined as for independent inputs.
+Result<void> add_channel(ChannelSum& to, const LayeredImage& image, const Input& input) {
+    if (to.rule == Rule::first) return {};
+    const LayeredImage::Channel* channel = image.find(to.first.name);
+    if (!channel || channel->values.size() != to.first.values.size()) return Error{input.file, "has no channel " + to.first.name, ""};
+    to.sums.resize(channel->values.size());
+    const double weight = double(input.metadata.spp);
+    for (size_t i = 0; i < to.sums.size(); ++i) {
+        const double value = channel->values[i];
+        to.sums[i] += to.rule == Rule::mean ? weight * value : to.rule == Rule::sum ? value : weight * value * weight * value;
     }
-    for (size_t i = 0; i < sums.size(); ++i) {
-        const double value = rule == Rule::root_of_squares ? std::sqrt(sums[i]) : sums[i];
-        merged.values[i] = float(rule == Rule::sum ? value : value / double(spp));
-    }
-    return merged;
+    return {};
 }
 
-Result<void> write_mean(const MergeCommand& c, const std::vector<Input>& inputs, const SnapshotMetadata& metadata) {
-    const LayeredImage& first = inputs.front().image;
-    LayeredImage merged{first.width, first.height, {}, snapshot_texts(metadata)};
-    for (const LayeredImage::Channel& channel : first.channels) {
-        const std::optional<Rule> rule = rule_of(channel);
-        if (!rule) continue;
-        Result<LayeredImage::Channel> mean = mean_channel(inputs, channel, *rule, metadata.spp);
-        if (!mean) return mean.error();
-        merged.channels.push_back(*std::move(mean));
+// Rounded once.
+LayeredImage::Channel mean_of(ChannelSum sum, int64_t spp) {
+    for (size_t i = 0; i < sum.sums.size(); ++i) {
+        const double value = sum.rule == Rule::root_of_squares ? std::sqrt(sum.sums[i]) : sum.sums[i];
+        sum.first.values[i] = float(sum.rule == Rule::sum ? value : value / double(spp));
     }
+    return std::move(sum.first);
+}
+
+Result<void> write_mean(const MergeCommand& c, const std::vector<Input>& inputs, Merged& result) {
+    std::vector<ChannelSum> sums;
+    for (const Input& input : inputs) {
+        const Result<LayeredImage> image = read_pixels(input);
+        if (!image) return image.error();
+        if (&input == &inputs.front()) {
+            result.width = image->width;
+            result.height = image->height;
+            for (const LayeredImage::Channel& channel : image->channels)
+                if (const std::optional<Rule> rule = rule_of(channel)) sums.push_back({channel, *rule});
+        }
+        if (image->width != result.width || image->height != result.height)
+            return Error{input.file, "has another size than that of " + inputs.front().file, ""};
+        for (ChannelSum& sum : sums)
+            if (const Result<void> added = add_channel(sum, *image, input); !added) return added.error();
+    }
+    LayeredImage merged{result.width, result.height, {}, snapshot_texts(result.metadata)};
+    for (ChannelSum& sum : sums) merged.channels.push_back(mean_of(std::move(sum), result.metadata.spp));
     return write_exr(c.output, merged);
 }
 
 Result<Merged> merge(const MergeCommand& c) {
-    Result<std::vector<Input>> inputs = read_inputs(c.inputs);
+    const Result<std::vector<Input>> inputs = read_heads(c.inputs);
     if (!inputs) return inputs.error();
-    Merged merged{merged_metadata(*inputs), inputs->front().image.width, inputs->front().image.height};
-    merged.exact = std::ranges::all_of(*inputs, [](const Input& i) { return i.film.has_value(); });
-    const Result<void> written = merged.exact ? write_sum(c, *inputs, merged.metadata) : write_mean(c, *inputs, merged.metadata);
+    Merged merged{merged_metadata(*inputs)};
+    merged.exact = std::ranges::none_of(*inputs, [](const Input& i) { return i.metadata.film.empty(); });
+    const Result<void> written = merged.exact ? write_sum(c, *inputs, merged) : write_mean(c, *inputs, merged);
     if (!written) return written.error();
     return merged;
 }

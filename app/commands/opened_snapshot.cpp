@@ -74,7 +74,7 @@ std::filesystem::path find_scene(const std::filesystem::path& file, const Snapsh
 } // namespace
 
 Result<OpenedSnapshot> open_snapshot(const std::filesystem::path& file, const std::filesystem::path& open_scene) {
-    const Result<LayeredImage> image = read_layers(file);
+    Result<LayeredImage> image = read_layers(file);
     if (!image) return image.error();
     const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
     if (!metadata) return in_file(metadata.error(), file.string());

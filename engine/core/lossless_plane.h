@@ -1,4 +1,4 @@
-// Plane of values that are stored without loss, one per pixel: double precision sums or integers.
+// Plane of values that are stored without loss, one per pixel: sums or integers.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 
 namespace blush {
 
-// Exactly one of the two vectors is used.
+// Either sums or words are used.
 struct LosslessPlane {
     std::string name;
     std::vector<double> sums = {};
     std::vector<uint32_t> words = {};
+    std::vector<double> fractions = {}; // of exact sums (exact_sum.h), whose integer parts are the sums; else empty
     size_t size() const { return sums.empty() ? words.size() : sums.size(); }
     bool operator==(const LosslessPlane&) const = default;
 };

@@ -32,6 +32,8 @@ struct RendererOptions {
     // The first sample uses the field of path guiding that an edit left over, until the pilots have run (kept_field.h).
     // It then depends on earlier edits; what follows does not, nor what save_film() gives.
     bool begins_trained = false;
+    // The film will be merged with others of the same image: a lone first sample is rendered as if others followed it.
+    bool is_part = false;
 };
 
 // World-space position of a light meter, lit from the side of its normal.

@@ -239,6 +239,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
         for (uint32_t& index : material->words)
             if (index != FilmState::no_material) index = s.scene.material_id(int32_t(index)).value;
     state.first_sample = first;
+    state.first_is_rough = s.first_is_rough && s.samples == 1;
     state.samples = s.samples;
     state.shares = s.sample_allocation.shares();
     if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
@@ -275,7 +276,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
     if (marked) s.pilot_variance.restore(state.marked);
     if (state.reuse_pilot) s.reuse.decide(*state.reuse_pilot);
     if (state.highlights) s.highlights = state.highlights;
-    s.first_is_rough = state.first_sample == 0 && state.samples == 1;
+    s.first_is_rough = state.first_is_rough;
     s.samples = state.samples;
     s.rays = state.rays;
     s.path_counts = state.path_counts;

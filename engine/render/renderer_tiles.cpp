@@ -211,7 +211,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     State& s = *state_;
     s.clear_stale_film();
     const int64_t begin = s.settings.adaptive ? s.samples : first;
-    if (s.divider == 1 && begin + count > 1) {
+    if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
         if (!s.decide(wanted)) return false;
         if (s.samples == 0) s.begin_splats();
         if (s.learned.renews_first()) {
@@ -234,6 +234,10 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (next == 0) {
             s.first_is_rough = s.divider == 1 && !s.first_as_others;
             s.first_is_trained = s.first_is_rough && s.uses_kept_field();
+            if (s.options.is_part && s.first_is_rough) {
+                if (s.edges.pixels(1)) s.refine_first_sample(*s.edges.pixels(1));
+                s.first_is_rough = false;
+            }
         }
         s.samples += step;
         done += step;

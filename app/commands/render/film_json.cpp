@@ -1,5 +1,6 @@
 #include "app/commands/render/film_json.h"
 
+#include "core/hash64.h"
 #include "io/image/lossless_channels.h"
 #include "io/project/json_fields.h"
 #include "render/diagnostics/health_recorder.h"
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <span>
 
 namespace blush {
 namespace {
@@ -128,16 +131,39 @@ void take_pilot(FilmState& film, size_t pixels) {
     std::erase_if(film.planes, [](const LosslessPlane& plane) { return plane.name.starts_with("pilot."); });
 }
 
-} // namespace
-
-std::vector<LosslessPlane> planes_in_file(const FilmState& film) {
-    std::vector<LosslessPlane> planes = film.planes;
+std::vector<LosslessPlane> planes_beside_film(const FilmState& film) {
+    std::vector<LosslessPlane> planes;
     if (!film.health.dropped_map.empty()) planes.push_back({dropped_plane, {}, film.health.dropped_map});
     for (size_t k = 0; k < pilot_planes.size() && !film.marked.empty(); ++k) {
         LosslessPlane plane{pilot_planes[k]};
         for (size_t i = 0; i < film.marked.size() / 2; ++i) plane.sums.push_back(film.marked[2 * i + k / 3].*channels[k % 3]);
         planes.push_back(std::move(plane));
     }
+    return planes;
+}
+
+// Of all samples: a flipped bit in a file changes it.
+std::string checksum(const FilmState& film, std::span<const LosslessPlane> beside) {
+    Hash64 hash;
+    for (const int64_t number : {film.first_sample, film.samples, film.passes[0], film.passes[1]}) hash.word(uint64_t(number));
+    std::vector<const LosslessPlane*> sorted; // channels of a file have another order
+    for (const std::span<const LosslessPlane> planes : {std::span(film.planes), beside})
+        for (const LosslessPlane& plane : planes) sorted.push_back(&plane);
+    std::ranges::sort(sorted, {}, &LosslessPlane::name);
+    for (const LosslessPlane* plane : sorted) {
+        hash.array(plane->name);
+        hash.array(plane->sums);
+        hash.array(plane->words);
+        hash.array(plane->fractions);
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
+} // namespace
+
+std::vector<LosslessPlane> planes_in_file(const FilmState& film) {
+    std::vector<LosslessPlane> planes = film.planes;
+    for (LosslessPlane& plane : planes_beside_film(film)) planes.push_back(std::move(plane));
     return planes;
 }
 
@@ -159,10 +185,12 @@ std::string film_json(const FilmState& film) {
         for (size_t k = 0; k < film.highlights->bands.size(); ++k)
             if (const auto& [rate, sum] = film.highlights->bands[k]; rate > 0) highlights.push_back({k, rate, sum.x, sum.y, sum.z});
     if (film.highlights) json["highlights"] = std::move(highlights);
+    if (film.first_is_rough) json["first"] = "rough";
+    json["checksum"] = checksum(film, planes_beside_film(film));
     return json_text(json);
 }
 
-Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata) {
+Result<FilmState> film_in_file(LayeredImage& image, const SnapshotMetadata& metadata) {
     if (metadata.film.empty()) return Error{"", "the image was saved without the samples: it cannot be resumed", ""};
     const Result<Json> json = parse_json_object(metadata.film);
     if (!json) return Error{"", json.error().what, "blush:film"};
@@ -195,12 +223,15 @@ Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata
     }
     if (const Json& bands = member(*json, "highlights"); !bands.is_null() && !read_highlights(bands, film.highlights.emplace()))
         return bad("highlights");
+    film.first_is_rough = film.first_sample == 0 && film.samples == 1 && member(*json, "first") == "rough";
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
-    film.planes = lossless_planes(image, "film");
+    film.planes = take_lossless_planes(image, "film");
     // Without any pass the splats would be left out of the image.
     if (const Json& passes = member(*json, "passes");
         film_size(film).light_paths != !passes.is_null() || (!passes.is_null() && !read_passes(passes, film.passes)))
         return bad("passes");
+    if (const Json& sum = member(*json, "checksum"); !sum.is_null() && sum != checksum(film, {}))
+        return Error{"", "the samples are damaged: their checksum differs", "blush:film checksum"};
     const size_t pixels = size_t(image.width) * size_t(image.height);
     take_health_map(film, pixels);
     take_pilot(film, pixels);

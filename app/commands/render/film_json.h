@@ -15,7 +15,8 @@ namespace blush {
 std::vector<LosslessPlane> planes_in_file(const FilmState& film);
 std::string film_json(const FilmState& film);
 
-// Restores the film of an image. Errors: saved without film, damaged text, invalid numbers.
-Result<FilmState> film_in_file(const LayeredImage& image, const SnapshotMetadata& metadata);
+// Restores the film of an image, whose planes it takes. Errors: saved without film, damaged text, invalid
+// numbers, samples whose checksum differs.
+Result<FilmState> film_in_file(LayeredImage& image, const SnapshotMetadata& metadata);
 
 } // namespace blush

@@ -248,7 +248,8 @@ Result<void> write_image(const RenderCommand& c, const Plan& plan, const Rendere
 // Renders, denoises if requested, and writes the output. The raw render is written even if denoising fails.
 Result<Rendered> render_image(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
                               Denoiser& denoiser, const std::atomic<bool>& interrupted) {
-    Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan)});
+    const bool is_part = c.options.samples_given || (plan.begun && plan.begun->film.first_sample > 0);
+    Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan), .is_part = is_part});
     renderer.update(loaded.scene, plan.settings);
     LoopProgress begin;
     if (plan.begun) {

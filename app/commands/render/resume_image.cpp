@@ -10,7 +10,7 @@
 namespace blush {
 
 Result<ResumeImage> read_resume_image(const std::string& file) {
-    const Result<LayeredImage> image = read_layers(file);
+    Result<LayeredImage> image = read_layers(file);
     if (!image) return image.error();
     const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
     if (!metadata) return in_file(metadata.error(), file);

@@ -19,7 +19,7 @@ namespace blush {
 namespace {
 
 constexpr uint64_t max_file_bytes = uint64_t(4) << 30;
-constexpr int max_channels = 256;
+constexpr int max_channels = 2048;                       // a film with every plane, 16 light groups and 32 bounces has about 1300
 constexpr uint64_t max_layers_bytes = uint64_t(4) << 30; // limit of all channels of a layered image: zeros compress to almost nothing
 
 // Limit of the compression ratio: deflate reaches about 1000 for constant images. Small images are always decoded.

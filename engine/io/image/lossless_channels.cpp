@@ -1,28 +1,26 @@
 #include "io/image/lossless_channels.h"
 
 #include <bit>
+#include <functional>
+#include <map>
 #include <string_view>
 #include <utility>
 
 namespace blush {
 namespace {
 
-constexpr std::string_view high = ".high", low = ".low", word = ".word";
+constexpr std::string_view high = ".high", low = ".low", word = ".word", fraction = ".fraction";
 
 void add_words(LayeredImage& image, std::string name, std::vector<uint32_t> words) {
     image.channels.push_back({std::move(name), {}, true, std::move(words)});
 }
 
-} // namespace
-
-void add_lossless_plane(LayeredImage& image, const std::string& layer, const LosslessPlane& plane) {
-    const std::string name = layer + "." + plane.name;
-    if (plane.sums.empty()) return add_words(image, name + std::string(word), plane.words);
+void add_doubles(LayeredImage& image, const std::string& name, const std::vector<double>& values) {
     std::vector<uint32_t> upper, lower;
-    upper.reserve(plane.sums.size());
-    lower.reserve(plane.sums.size());
-    for (const double sum : plane.sums) {
-        const uint64_t bits = std::bit_cast<uint64_t>(sum);
+    upper.reserve(values.size());
+    lower.reserve(values.size());
+    for (const double value : values) {
+        const uint64_t bits = std::bit_cast<uint64_t>(value);
         upper.push_back(uint32_t(bits >> 32));
         lower.push_back(uint32_t(bits));
     }
@@ -30,27 +28,56 @@ void add_lossless_plane(LayeredImage& image, const std::string& layer, const Los
     add_words(image, name + std::string(low), std::move(lower));
 }
 
-std::vector<LosslessPlane> lossless_planes(const LayeredImage& image, const std::string& layer) {
+// Moves the planes of fractions into the planes of their sums.
+void join_fractions(std::vector<LosslessPlane>& planes) {
+    std::map<std::string, LosslessPlane*, std::less<>> sums;
+    for (LosslessPlane& plane : planes) sums.emplace(plane.name, &plane);
+    for (LosslessPlane& plane : planes) {
+        if (!plane.name.ends_with(fraction)) continue;
+        const auto of = sums.find(std::string_view(plane.name).substr(0, plane.name.size() - fraction.size()));
+        if (of != sums.end()) of->second->fractions = std::exchange(plane.sums, {});
+    }
+    std::erase_if(planes, [](const LosslessPlane& plane) { return plane.name.ends_with(fraction); });
+}
+
+} // namespace
+
+void add_lossless_plane(LayeredImage& image, const std::string& layer, const LosslessPlane& plane) {
+    const std::string name = layer + "." + plane.name;
+    if (plane.sums.empty()) return add_words(image, name + std::string(word), plane.words);
+    add_doubles(image, name, plane.sums);
+    if (!plane.fractions.empty()) add_doubles(image, name + std::string(fraction), plane.fractions);
+}
+
+std::vector<LosslessPlane> take_lossless_planes(LayeredImage& image, const std::string& layer) {
+    std::map<std::string, LayeredImage::Channel*, std::less<>> low_words;
+    for (LayeredImage::Channel& channel : image.channels)
+        if (channel.is_uint && channel.name.ends_with(low)) low_words.emplace(channel.name, &channel);
     std::vector<LosslessPlane> planes;
     const std::string prefix = layer + ".";
-    for (const LayeredImage::Channel& channel : image.channels) {
+    for (LayeredImage::Channel& channel : image.channels) {
         const std::string_view name = channel.name;
         if (!channel.is_uint || !name.starts_with(prefix)) continue;
         const auto without = [&](std::string_view end) {
             return std::string(name.substr(prefix.size(), name.size() - prefix.size() - end.size()));
         };
+        channel.values = {};
         if (name.ends_with(word)) {
-            planes.push_back({without(word), {}, channel.words});
+            planes.push_back({without(word), {}, std::exchange(channel.words, {})});
         } else if (name.ends_with(high)) {
-            const LayeredImage::Channel* lower = image.find(prefix + without(high) + std::string(low));
-            if (!lower || !lower->is_uint) continue;
+            const auto lower = low_words.find(prefix + without(high) + std::string(low));
+            if (lower == low_words.end()) continue;
+            const std::vector<uint32_t> upper_words = std::exchange(channel.words, {}),
+                                        lower_words = std::exchange(lower->second->words, {});
+            lower->second->values = {};
             LosslessPlane plane{without(high)};
-            plane.sums.resize(channel.words.size());
+            plane.sums.resize(upper_words.size());
             for (size_t i = 0; i < plane.sums.size(); ++i)
-                plane.sums[i] = std::bit_cast<double>(uint64_t(channel.words[i]) << 32 | lower->words[i]);
+                plane.sums[i] = std::bit_cast<double>(uint64_t(upper_words[i]) << 32 | lower_words[i]);
             planes.push_back(std::move(plane));
         }
     }
+    join_fractions(planes);
     return planes;
 }
 

@@ -8,16 +8,16 @@ namespace blush {
 
 void BouncePlanes::reset(size_t places, int planes) {
     planes_ = planes;
-    sums_.assign(places * size_t(planes), Vec3d{0, 0, 0});
+    sums_.assign(places * size_t(planes), {});
 }
 
 void BouncePlanes::add(size_t place, const TileScratch& tile, int slot, int first_scaled, double scale) {
     const BounceColumns& columns = *tile.bounces;
-    Vec3d* sums = &sums_[place * size_t(planes_)];
+    ExactSum3* sums = &sums_[place * size_t(planes_)];
     Vec3d before{0, 0, 0};
     const auto add_difference = [&](int k, const auto& column) {
         const Vec3d now{column.r[slot], column.g[slot], column.b[slot]};
-        sums[k] = sums[k] + (now - before) * (k < first_scaled ? 1 : scale);
+        sums[k].add((now - before) * (k < first_scaled ? 1 : scale));
         before = now;
     };
     // Clamping may need more columns than there are planes.

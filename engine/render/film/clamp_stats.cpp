@@ -29,7 +29,7 @@ ClampStats::ClampResult ClampStats::clamp(size_t place, const TileScratch& tile,
     if (!(largest > double(clamp_.limit))) return {whole, 0, 1};
     const double scale = double(clamp_.limit) / largest;
     ClampedSums& account = accounts_[place];
-    account.removed = account.removed + clampable * (1 - scale);
+    account.removed.add(clampable * (1 - scale));
     ++account.samples;
     return {unclamped + clampable * scale, clamp_.all ? 0 : 2, scale};
 }

@@ -1,7 +1,7 @@
 // Clamping of samples, with exact statistics of the removed light.
 #pragma once
 
-#include "core/vec.h"
+#include "core/exact_sum.h"
 #include "render/diagnostics/health.h"
 #include "render/kernels/kernel.h"
 #include "scene/render_settings.h"
@@ -36,7 +36,7 @@ public:
 
     // Light removed at a place, and the number of samples it was removed from. Only while clamping is on.
     struct ClampedSums {
-        Vec3d removed{0, 0, 0};
+        ExactSum3 removed;
         int64_t samples = 0;
     };
     ClampedSums& account(size_t place) { return accounts_[place]; }

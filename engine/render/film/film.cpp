@@ -138,8 +138,8 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
         const float normal[3] = {first.normal_x[slot], first.normal_y[slot], first.normal_z[slot]};
         for (int c = 0; c < 3; ++c) {
             // On a miss the albedo may be the sun's radiance; denoiser inputs must stay in range.
-            if (std::isfinite(albedo[c])) f.albedo[c] += double(std::clamp(albedo[c], 0.f, 1.f));
-            if (std::isfinite(normal[c])) f.normal[c] += double(normal[c]);
+            if (std::isfinite(albedo[c])) f.albedo[c] += rounded_for_sums(double(std::clamp(albedo[c], 0.f, 1.f)));
+            if (std::isfinite(normal[c])) f.normal[c] += rounded_for_sums(double(normal[c]));
         }
     }
     if (transparent_) covered_[place] += first.material[slot] >= 0;
@@ -154,7 +154,7 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
 // Of the samples alone: how many passes of light paths there are by now depends on how samples are asked for.
 Vec3d Film::sum_of(size_t pixel) const {
     const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
-    return {a.r + b.r, a.g + b.g, a.b + b.b};
+    return a.sum.value() + b.sum.value();
 }
 
 // Threshold for the pixel's next samples: those whose components sum
@@ -180,7 +180,8 @@ void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot,
         strategies_.add(pixel, half, tile.strategies->light, slot, left.first_scaled, left.scale, int(FoundBy::manifold));
     if (planes_.roulette) {
         const RouletteColumns& c = *tile.roulette;
-        paths_[place] = paths_[place] + Vec3d{double(c.length[slot]), double(c.num_rr_applied[slot]), double(c.survival[slot])};
+        paths_[place] =
+            paths_[place] + Vec3d{double(c.length[slot]), double(c.num_rr_applied[slot]), rounded_for_sums(double(c.survival[slot]))};
     }
 }
 
@@ -240,10 +241,8 @@ void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, cons
         const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
         HalfBuffer& half = half_buffers_[2 * pixel];
         if (!pixels.has(x, y) || half.count == 0) continue;
-        const auto add = [&](Vec3d& sum, const auto& c) { sum = sum + Vec3d{c.r[slot], c.g[slot], c.b[slot]} * sign; };
-        half.r += sign * tile.r[slot];
-        half.g += sign * tile.g[slot];
-        half.b += sign * tile.b[slot];
+        const auto add = [&](ExactSum3& sum, const auto& c) { sum.add(Vec3d{c.r[slot], c.g[slot], c.b[slot]} * sign); };
+        add(half.sum, tile);
         if (bounces_.planes() > 0) add(bounces_.sum(place_of(pixel, 0), 0), tile);
         if (strategies_.groups() > 0) add(strategies_.sum(pixel, 0, size_t(FoundBy::camera_hit)), tile);
         for (int k = 0; k < groups_.groups(); ++k) add(groups_.sum(pixel, 0, size_t(k)), tile.groups->all[size_t(k)]);
@@ -253,31 +252,33 @@ void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, cons
 void Film::add_caught(size_t place, const TileScratch& tile, const CatcherColumns& caught, int slot, const Vec3d& radiance) {
     if (!caught.caught[slot]) return;
     CaughtSums& sums = caught_[place];
-    sums.unoccluded += double(caught.unoccluded[slot]);
-    sums.arriving += double(caught.arriving[slot]);
-    sums.r += radiance.x;
-    sums.g += radiance.y;
-    sums.b += radiance.z;
+    sums.unoccluded.add(double(caught.unoccluded[slot]));
+    sums.arriving.add(double(caught.arriving[slot]));
+    sums.radiance.add(radiance);
     if (transparent_) sums.open += tile.first->material[slot] < 0;
 }
 
 // Composites the shadow over the background behind the catcher.
 void Film::resolve_caught(float* rgba, size_t pixel, const Weights& w) const {
-    const auto mean = [&](auto member) { return mean_of(pixel, w, [&](size_t place) { return caught_[place].*member; }); };
+    const auto mean = [&](auto member) { return mean_of(pixel, w, [&](size_t place) { return (caught_[place].*member).value(); }); };
     const double shadow = shadow_alpha(mean(&CaughtSums::unoccluded), mean(&CaughtSums::arriving));
     if (shadow == 0) return;
-    rgba[0] -= float(shadow * mean(&CaughtSums::r));
-    rgba[1] -= float(shadow * mean(&CaughtSums::g));
-    rgba[2] -= float(shadow * mean(&CaughtSums::b));
+    const Vec3d behind = mean(&CaughtSums::radiance) * shadow;
+    rgba[0] -= float(behind.x);
+    rgba[1] -= float(behind.y);
+    rgba[2] -= float(behind.z);
     for (int c = 0; c < 3; ++c) rgba[c] = std::max(rgba[c], 0.f); // rounding residue of equal sums
-    if (transparent_) rgba[3] = std::min(rgba[3] + float(shadow * mean(&CaughtSums::open)), 1.f);
+    if (!transparent_) return;
+    const double open = mean_of(pixel, w, [&](size_t place) { return caught_[place].open; });
+    rgba[3] = std::min(rgba[3] + float(shadow * open), 1.f);
 }
 
 double Film::shadow_variance(size_t pixel) const {
     if (caught_.empty() || !adaptive_) return 0;
     const CaughtSums &a = caught_[2 * pixel], &b = caught_[2 * pixel + 1];
-    if (!(a.unoccluded > 0) || !(b.unoccluded > 0)) return 0;
-    const double difference = shadow_alpha(a.unoccluded, a.arriving) - shadow_alpha(b.unoccluded, b.arriving);
+    if (!(a.unoccluded.value() > 0) || !(b.unoccluded.value() > 0)) return 0;
+    const auto alpha = [](const CaughtSums& sums) { return shadow_alpha(sums.unoccluded.value(), sums.arriving.value()); };
+    const double difference = alpha(a) - alpha(b);
     return difference * difference / 2;
 }
 
@@ -292,7 +293,7 @@ void Film::Totals::merge(const Totals& other) {
 }
 
 Vec3d Film::group_sum(size_t pixel, int half, size_t group) const {
-    const Vec3d& samples = groups_.sum(pixel, half, group);
+    const Vec3d samples = groups_.sum(pixel, half, group).value();
     if (!splats_.on()) return samples;
     return samples + splats_.group_for(pixel, half, group, half_buffers_[2 * pixel + size_t(half)].count);
 }
@@ -307,7 +308,7 @@ Vec3d Film::mixed_sum(size_t pixel, int half) const {
 }
 
 Vec3d Film::strategy_sum(size_t pixel, int half, FoundBy by) const {
-    if (by != FoundBy::light_path) return strategies_.sum(pixel, half, size_t(by));
+    if (by != FoundBy::light_path) return strategies_.sum(pixel, half, size_t(by)).value();
     if (!splats_.on()) return {0, 0, 0};
     return splats_.sum_for(pixel, half, half_buffers_[2 * pixel + size_t(half)].count);
 }
@@ -353,7 +354,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
             frame.material_id[i] = uint32_t(material_[i]) + 1;
         }
         for (size_t k = 0; k < frame.bounces.size(); ++k) {
-            Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k); });
+            Vec3d light = mean_of(i, w, [&](size_t place) { return bounces_.sum(place, k).value(); });
             if (splats_.on()) light = light + splats_.bounce_for(i, 0, k, a.count) * w.a + splats_.bounce_for(i, 1, k, b.count) * w.b;
             frame.bounces[k][i] = {float(light.x), float(light.y), float(light.z)};
         }
@@ -369,7 +370,7 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
         }
         if (clamp_.on()) {
             totals.kept = totals.kept + unmixed_sum(i, 0) * w.a + unmixed_sum(i, 1) * w.b;
-            totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.account(place).removed; });
+            totals.removed = totals.removed + mean_of(i, w, [&](size_t place) { return clamp_.account(place).removed.value(); });
             totals.clamped += adaptive_ ? clamp_.account(2 * i).samples + clamp_.account(2 * i + 1).samples : clamp_.account(i).samples;
         }
     }

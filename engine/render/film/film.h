@@ -1,6 +1,10 @@
-// Sums of samples. Frames, denoiser and views only read it; planes that are not used are not allocated.
+// Sums of samples. Frames, denoiser and views only read it; planes that are not used are not allocated. The sums are exact
+// (exact_sum.h): they depend neither on the order of the samples nor on how these are split into films that are added later. Depth
+// and ids are those of the first sample.
 #pragma once
 
+#include "core/exact_sum.h"
+#include "core/math.h"
 #include "core/parallel.h"
 #include "render/diagnostics/health_recorder.h"
 #include "render/error/error_estimate.h"
@@ -72,7 +76,7 @@ public:
 
     // Finds the cause of an invalid sample of pixel (x, y).
     using Diagnose = std::function<Fault(int x, int y, int64_t sample)>;
-    // Adds a tile sample by sample in order, so that sums do not depend on how samples are split into tiles. Samples that are not
+    // Adds the samples of a tile. Samples that are not
     // finite or negative are dropped, counted and recorded with their diagnosis. Concurrent tiles must not share pixels.
     // Thread-safe. `caught`: for a film with a shadow catcher.
     void add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose = {},
@@ -82,8 +86,7 @@ public:
     // where it was dropped, nothing.
     void add_to_first_sample(const TileJob& job, const TileScratch& tile, const EdgePixels& pixels, double sign);
 
-    // Adds what the light paths of pass `pass` of the image bring to any pixel, list by list in the order of `tiles`, to a film with
-    // light paths: the sums depend neither on threads nor on how the pass is split into lists. Splats that are not finite or
+    // Adds what the light paths of pass `pass` of the image bring to any pixel to a film with light paths. Splats that are not finite or
     // negative are dropped, counted and recorded with the pass as their sample. Pass i belongs to the half of sample i. Not
     // thread-safe: neither during another pass nor while tiles are added.
     void add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed = 0);
@@ -122,15 +125,14 @@ private:
     friend struct FilmPlanes;
 
     struct HalfBuffer {
-        double r = 0, g = 0, b = 0;
+        ExactSum3 sum;
         int64_t count = 0;
         void add(const Vec3d& c) {
-            r += c.x;
-            g += c.y;
-            b += c.z;
+            sum.add(c);
             ++count;
         }
     };
+    // Of numbers that rounded_for_sums() has rounded: exact.
     struct FeatureSums {
         double albedo[3] = {}, normal[3] = {};
     };
@@ -159,9 +161,8 @@ private:
     // As sum(), without the groups' gains.
     Vec3d unmixed_sum(size_t pixel, int half) const {
         const HalfBuffer& h = half_buffers_[2 * pixel + size_t(half)];
-        if (!splats_.on()) return {h.r, h.g, h.b};
-        const Vec3d s = splats_.sum_for(pixel, half, h.count);
-        return {h.r + s.x, h.g + s.y, h.b + s.z};
+        if (!splats_.on()) return h.sum.value();
+        return h.sum.value() + splats_.sum_for(pixel, half, h.count);
     }
     // Sum over the groups, each times its gain.
     Vec3d mixed_sum(size_t pixel, int half) const;
@@ -206,7 +207,7 @@ private:
     std::vector<float> depth_;     // of the first sample, like the ids: their means are meaningless
     std::vector<uint32_t> object_id_;
     std::vector<int32_t> material_; // index into the material table
-    std::vector<Vec3d> paths_;      // per pixel: path length, number of roulette decisions, sum of survival probabilities
+    std::vector<Vec3d> paths_;      // per pixel: path length, number of roulette decisions, sum of rounded survival probabilities
     BouncePlanes bounces_;
     GroupPlanes groups_;
     GroupPlanes strategies_;         // by FoundBy, without light paths

@@ -14,16 +14,16 @@ enum class Combine {
 };
 
 struct FilmPlanes {
-    // visit(name, combine, at): at(pixel) is a reference to the number.
+    // visit(name, combine, at): at(pixel) is a reference to the number or to the exact sum.
     template <class AnyFilm, class Visit> static void visit(AnyFilm& film, const Visit& visit) {
         for (size_t half = 0; half < 2; ++half) {
             const auto in_half = [&film, half ](size_t pixel) -> auto& { return film.half_buffers_[2 * pixel + half]; };
             visit(
-                name_of(half, "R"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).r; });
+                name_of(half, "R"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).sum.x; });
             visit(
-                name_of(half, "G"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).g; });
+                name_of(half, "G"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).sum.y; });
             visit(
-                name_of(half, "B"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).b; });
+                name_of(half, "B"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).sum.z; });
             visit(
                 name_of(half, "count"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).count; });
         }
@@ -54,11 +54,11 @@ struct FilmPlanes {
             visit_places(
                 film, visit, "caught.open", [&film](size_t place) -> auto& { return film.caught_[place].open; });
             visit_places(
-                film, visit, "caught.R", [&film](size_t place) -> auto& { return film.caught_[place].r; });
+                film, visit, "caught.R", [&film](size_t place) -> auto& { return film.caught_[place].radiance.x; });
             visit_places(
-                film, visit, "caught.G", [&film](size_t place) -> auto& { return film.caught_[place].g; });
+                film, visit, "caught.G", [&film](size_t place) -> auto& { return film.caught_[place].radiance.y; });
             visit_places(
-                film, visit, "caught.B", [&film](size_t place) -> auto& { return film.caught_[place].b; });
+                film, visit, "caught.B", [&film](size_t place) -> auto& { return film.caught_[place].radiance.z; });
         }
         for (size_t k = 0; k < size_t(film.bounces_.planes()); ++k)
             visit_vectors(

@@ -17,7 +17,41 @@ namespace {
 template <class At> using ValueOf = std::remove_cvref_t<std::invoke_result_t<At, size_t>>;
 
 // Depth is stored like a sum: every float is exact as a double.
-template <class T> constexpr bool is_sum = std::is_floating_point_v<T>;
+template <class T> constexpr bool is_exact = std::is_same_v<T, ExactSum>;
+template <class T> constexpr bool is_sum = std::is_floating_point_v<T> || is_exact<T>;
+
+void add(ExactSum& sum, const ExactSum& more) { sum.add(more); }
+template <class T> void add(T& sum, T more) { sum += more; }
+
+// A pixel's value in a plane of the right size. Films of older versions have sums without fractions.
+template <class T> T value_in(const LosslessPlane& plane, size_t pixel) {
+    if constexpr (is_exact<T>)
+        return ExactSum::of(plane.sums[pixel], plane.fractions.empty() ? 0 : plane.fractions[pixel]);
+    else if constexpr (is_sum<T>)
+        return T(plane.sums[pixel]);
+    else
+        return T(plane.words[pixel]);
+}
+
+template <class T> void set_value(LosslessPlane& plane, size_t pixel, const T& value) {
+    if constexpr (is_exact<T>) {
+        plane.sums[pixel] = value.whole();
+        plane.fractions[pixel] = value.fraction();
+    } else if constexpr (is_sum<T>)
+        plane.sums[pixel] = double(value);
+    else
+        plane.words[pixel] = uint32_t(value);
+}
+
+template <class T> LosslessPlane empty_plane(const std::string& name, size_t pixels) {
+    LosslessPlane plane{name};
+    if constexpr (is_sum<T>)
+        plane.sums.resize(pixels);
+    else
+        plane.words.resize(pixels);
+    if constexpr (is_exact<T>) plane.fractions.resize(pixels);
+    return plane;
+}
 
 const LosslessPlane* find_plane(const std::vector<LosslessPlane>& planes, std::string_view name) {
     const auto it = std::ranges::find(planes, name, &LosslessPlane::name);
@@ -42,7 +76,8 @@ std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
     std::optional<Error> error;
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
         const LosslessPlane* plane = find_plane(state.planes, name);
-        const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels;
+        const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels &&
+                           (plane->fractions.empty() || plane->fractions.size() == pixels);
         if (!there && !error) error = Error{"", fmt::format("the saved samples lack the plane \"{}\"", name), ""};
     });
     return error;
@@ -54,12 +89,7 @@ template <class Take> void for_each_value(Film& film, const FilmState& state, co
     FilmPlanes::visit(film, [&](const std::string& name, Combine combine, const auto& at) {
         using T = ValueOf<decltype(at)>;
         const LosslessPlane& plane = *find_plane(state.planes, name);
-        for (size_t i = 0; i < pixels; ++i) {
-            if constexpr (is_sum<T>)
-                take(at(i), T(plane.sums[i]), i, combine);
-            else
-                take(at(i), T(plane.words[i]), i, combine);
-        }
+        for (size_t i = 0; i < pixels; ++i) take(at(i), value_in<T>(plane, i), i, combine);
     });
 }
 
@@ -74,14 +104,8 @@ FilmState save_film(const Film& film) {
     state.height = film.height();
     const size_t pixels = size_t(state.width) * size_t(state.height);
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
-        LosslessPlane plane{name};
-        if constexpr (is_sum<ValueOf<decltype(at)>>) {
-            plane.sums.resize(pixels);
-            for (size_t i = 0; i < pixels; ++i) plane.sums[i] = double(at(i));
-        } else {
-            plane.words.resize(pixels);
-            for (size_t i = 0; i < pixels; ++i) plane.words[i] = uint32_t(at(i));
-        }
+        LosslessPlane plane = empty_plane<ValueOf<decltype(at)>>(name, pixels);
+        for (size_t i = 0; i < pixels; ++i) set_value(plane, i, at(i));
         state.planes.push_back(std::move(plane));
     });
     state.passes = film.passes();
@@ -103,7 +127,7 @@ Result<void> add_film(Film& film, const FilmState& more) {
     for (size_t i = 0; i < seen.size(); ++i) seen[i] = film.has_samples(i);
     for_each_value(film, more, [&](auto& number, auto value, size_t pixel, Combine combine) {
         if (combine == Combine::add)
-            number += value;
+            add(number, value);
         else if (!seen[pixel])
             number = value;
     });
@@ -119,11 +143,19 @@ template <class GroupName>
 void scale_planes(FilmState& state, std::span<const Vec3> factors, const std::string& whole, const GroupName& group_name) {
     const std::array<std::pair<const char*, float Vec3::*>, 3> channels{{{".R", &Vec3::x}, {".G", &Vec3::y}, {".B", &Vec3::z}}};
     for (const auto& [name, channel] : channels) {
-        std::vector<double>& sums = state.find(whole + name)->sums;
-        std::ranges::fill(sums, 0.0);
+        LosslessPlane& plane = *state.find(whole + name);
+        const size_t pixels = plane.sums.size();
+        plane = empty_plane<ExactSum>(plane.name, pixels);
         for (size_t k = 0; k < factors.size(); ++k) {
-            std::vector<double>& group = state.find(group_name(k) + name)->sums;
-            for (size_t i = 0; i < group.size(); ++i) sums[i] += group[i] *= double(factors[k].*channel);
+            LosslessPlane& group = *state.find(group_name(k) + name);
+            group.fractions.resize(pixels);
+            for (size_t i = 0; i < pixels; ++i) {
+                const auto scaled = ExactSum::of(value_in<ExactSum>(group, i).value() * double(factors[k].*channel), 0);
+                set_value(group, i, scaled);
+                ExactSum sum = value_in<ExactSum>(plane, i);
+                sum.add(scaled);
+                set_value(plane, i, sum);
+            }
         }
     }
 }
@@ -154,9 +186,7 @@ FilmSize film_size(const FilmState& state) {
     return size;
 }
 
-namespace {
-
-Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& settings) {
+Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings) {
     if (state.width < 1 || state.height < 1 || state.samples < 1) return Error{"", "there are no samples", ""};
     FilmSize size = film_size(state);
     size.adaptive = settings.adaptive;
@@ -166,11 +196,9 @@ Result<void> load_new(Film& film, const FilmState& state, const RenderSettings& 
     return load_film(film, state);
 }
 
-} // namespace
-
 Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads) {
     Film film;
-    if (const auto loaded = load_new(film, state, settings); !loaded) return loaded.error();
+    if (const auto loaded = load_new_film(film, state, settings); !loaded) return loaded.error();
     // Saved ids are ids; a frame stores table indices + 1.
     ResolvedFilm resolved;
     Frame& frame = resolved.frame;
@@ -198,29 +226,6 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();
     return resolved;
-}
-
-Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings) {
-    if (b.first_sample < a.first_sample) return merge_films(b, a, settings);
-    const int64_t end = a.first_sample + a.samples;
-    if (b.first_sample < end) return Error{"", fmt::format("both files contain sample {}", b.first_sample), ""};
-    if (b.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither file", end, b.first_sample - 1), ""};
-    Film film;
-    if (const auto loaded = load_new(film, a, settings); !loaded) return loaded.error();
-    if (const auto added = add_film(film, b); !added) return added.error();
-    FilmState sum = save_film(film);
-    sum.first_sample = a.first_sample;
-    sum.samples = a.samples + b.samples;
-    sum.seconds = a.seconds + b.seconds;
-    sum.rays = {a.rays.camera + b.rays.camera, a.rays.bounce + b.rays.bounce, a.rays.shadow + b.rays.shadow};
-    sum.truncated = a.truncated + b.truncated;
-    sum.mix = a.mix;
-    sum.reuse_pilot = a.reuse_pilot ? a.reuse_pilot : b.reuse_pilot;
-    sum.highlights = a.highlights ? a.highlights : b.highlights;
-    sum.path_counts = a.path_counts;
-    sum.path_counts.resize(std::max(a.path_counts.size(), b.path_counts.size()));
-    for (size_t k = 0; k < b.path_counts.size(); ++k) sum.path_counts[k] += b.path_counts[k];
-    return sum;
 }
 
 } // namespace blush

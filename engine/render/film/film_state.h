@@ -22,6 +22,7 @@ struct FilmState {
     int width = 0, height = 0;
     int64_t first_sample = 0, samples = 0; // of each pixel, on average: sample indices [first_sample, first_sample + samples)
     double seconds = 0;                    // of rendering
+    bool first_is_rough = false;           // the only sample is that of before the pilots: the next one refines it
     // "even.R", "odd.count", "albedo.G", "depth", ...: sums over samples, or values of the first sample. Material ids are
     // Id<Material>.value, no_material on a miss.
     std::vector<LosslessPlane> planes;
@@ -52,8 +53,10 @@ FilmState save_film(const Film& film);
 // Loads into a film that was reset for the same image. Errors: another size, light paths only in one of both (their samples have
 // other MIS weights), or a missing plane.
 Result<void> load_film(Film& film, const FilmState& state);
-// Adds other samples of the same image to the film, in double precision; first hits stay those of the earlier samples. Health
-// counts are added, the lists of worst samples merged. Errors as above.
+// The same into a film that is reset for it first. Errors as above; no samples; not enough memory.
+Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings);
+// Adds other samples of the same image to the film: as if it had rendered them. First hits stay those of the earlier samples.
+// Health counts are added, the lists of worst samples merged. Errors as above.
 Result<void> add_film(Film& film, const FilmState& more);
 
 // The image of a film state made with these settings: pixels, planes, error, health; all that Renderer::resolve() gives except
@@ -63,10 +66,6 @@ struct ResolvedFilm {
     std::vector<Vec3> error; // standard error of each pixel's mean, RGB; empty if not known
 };
 Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads = 0);
-// Merges the samples of two states of one image with adjacent sample ranges; neither may be adaptive. If pilots decided differently
-// about path reuse, which only happens between versions of the program, the sum is unbiased and continues as the first range.
-// Errors as add_film; ranges that overlap or leave a gap.
-Result<FilmState> merge_films(const FilmState& a, const FilmState& b, const RenderSettings& settings);
 // Scales each light group by its factor, as if rendered so from the first sample.
 void scale_groups(FilmState& state, std::span<const Vec3> factors);
 

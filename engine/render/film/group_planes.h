@@ -1,7 +1,7 @@
 // The beauty split by light group, for the light mix, or by strategy.
 #pragma once
 
-#include "core/vec.h"
+#include "core/exact_sum.h"
 #include "render/kernels/group_columns.h"
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace blush {
 
-// Sums in double precision for each half of the film, so that the error of any mix can be computed. The planes of a sample sum to
+// Exact sums for each half of the film, so that the error of any mix can be computed. The planes of a sample sum to
 // its contribution to the beauty, up to rounding of sums in another order.
 class GroupPlanes {
 public:
-    static size_t bytes_per_pixel(int groups) { return 2 * size_t(groups) * sizeof(Vec3d); }
+    static size_t bytes_per_pixel(int groups) { return 2 * size_t(groups) * sizeof(ExactSum3); }
 
-    size_t memory_bytes() const { return sums_.capacity() * sizeof(Vec3d); }
+    size_t memory_bytes() const { return sums_.capacity() * sizeof(ExactSum3); }
     // Clears the planes; 0 groups: none.
     void reset(size_t pixels, int groups);
     int groups() const { return groups_; }
@@ -24,14 +24,14 @@ public:
     // is one: manifold sampling finds it before the direct light is complete.
     void add(size_t pixel, int half, const GroupColumns& columns, int slot, int first_scaled, double scale, int indirect = -1);
 
-    Vec3d& sum(size_t pixel, int half, size_t group) { return sums_[place(pixel, half) + group]; }
-    const Vec3d& sum(size_t pixel, int half, size_t group) const { return sums_[place(pixel, half) + group]; }
+    ExactSum3& sum(size_t pixel, int half, size_t group) { return sums_[place(pixel, half) + group]; }
+    const ExactSum3& sum(size_t pixel, int half, size_t group) const { return sums_[place(pixel, half) + group]; }
 
 private:
     size_t place(size_t pixel, int half) const { return (2 * pixel + size_t(half)) * size_t(groups_); }
 
     int groups_ = 0;
-    std::vector<Vec3d> sums_; // the groups of one half of a pixel are adjacent
+    std::vector<ExactSum3> sums_; // the groups of one half of a pixel are adjacent
 };
 
 } // namespace blush

@@ -13,6 +13,7 @@
 // catcher is an ordinary surface.
 #pragma once
 
+#include "core/exact_sum.h"
 #include "render/kernels/kernel.h"
 
 #include <cstdint>
@@ -31,9 +32,9 @@ struct CatcherColumns {
 
 // The same, summed over samples in a film.
 struct CaughtSums {
-    double unoccluded = 0, arriving = 0;
-    double open = 0;            // samples with nothing behind the catcher, if the background is transparent
-    double r = 0, g = 0, b = 0; // radiance behind the catcher
+    ExactSum unoccluded, arriving;
+    double open = 0;    // samples with nothing behind the catcher, if the background is transparent
+    ExactSum3 radiance; // behind the catcher
 };
 
 // Opacity of a shadow, 0 .. 1, by the formula above.

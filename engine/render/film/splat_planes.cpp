@@ -8,18 +8,17 @@ namespace blush {
 
 void SplatPlanes::Split::reset(size_t pixels, int planes) {
     count = pixels > 0 ? planes : 0;
-    sums.assign(2 * pixels * size_t(planes), Vec3d{0, 0, 0});
+    sums.assign(2 * pixels * size_t(planes), {});
 }
 
 // Of planes that do not exist, nothing.
 void SplatPlanes::Split::add(size_t pixel, int half, size_t plane, const Vec3d& radiance) {
     if (count == 0) return;
-    Vec3d& to = sums[place(pixel, half) + std::min(plane, size_t(count) - 1)];
-    to = to + radiance;
+    sums[place(pixel, half) + std::min(plane, size_t(count) - 1)].add(radiance);
 }
 
 void SplatPlanes::reset(size_t pixels, int bounces, int groups) {
-    sums_.assign(2 * pixels, Vec3d{0, 0, 0});
+    sums_.assign(2 * pixels, {});
     by_bounce_.reset(pixels, bounces);
     by_group_.reset(pixels, groups);
     passes_ = {};
@@ -30,8 +29,7 @@ std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::
     const int half = int(pass & 1);
     const int64_t pixels = int64_t(sums_.size() / 2), bands = int64_t(workers.threads());
     std::vector<std::vector<BadSample>> dropped(size_t(bands), std::vector<BadSample>{});
-    // Each band looks at all splats and adds its own: most of the time goes into the memory of the sums, and the order of a pixel's
-    // splats stays that of the lists, however many bands there are.
+    // Each band looks at all splats and adds its own: most of the time goes into the memory of the sums.
     workers.for_each(bands, {}, [&](int64_t band, unsigned) {
         const int64_t first = pixels * band / bands, last = pixels * (band + 1) / bands;
         for (const std::span<const Splat> tile : tiles)
@@ -44,8 +42,7 @@ std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::
                     dropped[size_t(band)].push_back({*cause, splat.pixel % width, splat.pixel / width, pass, seed, fault});
                     continue;
                 }
-                Vec3d& to = sum(size_t(splat.pixel), half);
-                to = to + radiance;
+                sum(size_t(splat.pixel), half).add(radiance);
                 by_bounce_.add(size_t(splat.pixel), half, splat.scatterings, radiance);
                 by_group_.add(size_t(splat.pixel), half, splat.group, radiance);
             }

@@ -2,6 +2,7 @@
 #include "render/film/splat_planes.h"
 
 #include "render/film/film.h"
+#include "render/film/film_merger.h"
 #include "render/film/film_state.h"
 #include "render/film/pilot_variance.h"
 #include "tests/support/statistics.h"

@@ -1,4 +1,5 @@
 // Strategy planes: they sum to the beauty, hold what their strategy finds, and cost nothing if not requested.
+#include "render/film/film_merger.h"
 #include "render/film/film_state.h"
 #include "render/film/found_by.h"
 #include "tests/render/pilots/pilot_checks.h"
