@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/commands/json_output.h"
+#include "app/commands/render/allocation_file.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/write_image.h"
 #include "render/film/film_merger.h"
@@ -19,7 +20,7 @@ namespace {
 
 struct MergeCommand {
     std::vector<std::string> inputs;
-    std::string output;
+    std::string output, allocation;
     CommonOptions common;
 };
 
@@ -41,8 +42,8 @@ Result<Input> read_head(const std::string& file) {
     Result<SnapshotMetadata> metadata = read_snapshot_metadata(*texts);
     if (!metadata) return in_file(metadata.error(), file);
     if (metadata->spp < 1) return Error{file, "has no number of samples", "blush:spp"};
-    if (metadata->settings.adaptive)
-        return Error{file, "adaptive renders cannot be merged: the sampling of each depends on all its samples", ""};
+    if (metadata->settings.adaptive && metadata->film.empty())
+        return Error{file, "adaptive images cannot be merged from their means: render the parts with --layers film", ""};
     return Input{file, *std::move(metadata)};
 }
 
@@ -121,6 +122,15 @@ Layers layers_of(const LayeredImage& image) {
             .groups = groups};
 }
 
+Result<void> write_allocation_of(const MergeCommand& c, const FilmState& sum, const SnapshotMetadata& metadata) {
+    if (sum.shares[0].empty())
+        return Error{c.allocation,
+                     "no allocation: it needs adaptive parts that hold the samples 0:16 and of which one ends with sample 8, such as 0:8 "
+                     "and 8:16",
+                     ""};
+    return write_allocation(c.allocation, {metadata.scene_hash, sum.width, sum.height, sum.shares});
+}
+
 Result<void> write_sum(const MergeCommand& c, const std::vector<Input>& inputs, Merged& merged) {
     SnapshotMetadata& metadata = merged.metadata;
     FilmMerger merger(metadata.settings);
@@ -136,6 +146,8 @@ Result<void> write_sum(const MergeCommand& c, const std::vector<Input>& inputs, 
         if (const Result<void> added = merger.add(*part); !added) return in_file(added.error(), input.file);
     }
     const FilmState sum = merger.sum();
+    if (!c.allocation.empty())
+        if (const Result<void> written = write_allocation_of(c, sum, metadata); !written) return written.error();
     const Result<ResolvedFilm> resolved = resolve_film(sum, metadata.settings, c.common.threads);
     if (!resolved) return in_file(resolved.error(), inputs.front().file);
     metadata.error = error_text(resolved->frame.error);
@@ -217,6 +229,8 @@ Result<Merged> merge(const MergeCommand& c) {
     if (!inputs) return inputs.error();
     Merged merged{merged_metadata(*inputs)};
     merged.exact = std::ranges::none_of(*inputs, [](const Input& i) { return i.metadata.film.empty(); });
+    if (!merged.exact && !c.allocation.empty())
+        return Error{c.allocation, "no allocation: the parts have no sums; render them with --layers film", ""};
     const Result<void> written = merged.exact ? write_sum(c, *inputs, merged) : write_mean(c, *inputs, merged);
     if (!written) return written.error();
     return merged;
@@ -258,6 +272,9 @@ void add_merge_command(CLI::App& app, std::function<int()>& run) {
         ->expected(2, 100000)
         ->type_name("EXR");
     sub->add_option("-o,--output", command->output, "Output file")->required()->type_name("OUT");
+    sub->add_option("--allocation", command->allocation,
+                    "Write the allocation of adaptive sampling, decided from the samples 0:8 and 8:16, for render --allocation")
+        ->type_name("JSON");
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_merge(*command); }; });
 }

@@ -6,6 +6,7 @@
 #include "render/compile/compiled_info.h"
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_size.h"
+#include "render/film/sample_allocation.h"
 #include "render/first_hit_planes.h"
 #include "render/frame.h"
 #include "render/light_mix/light_groups.h"
@@ -34,6 +35,8 @@ struct RendererOptions {
     bool begins_trained = false;
     // The film will be merged with others of the same image: a lone first sample is rendered as if others followed it.
     bool is_part = false;
+    // Of a part: adaptive sampling by these shares, which fit the film, instead of those of a pilot.
+    std::optional<SampleAllocation::Shares> allocation = {};
 };
 
 // World-space position of a light meter, lit from the side of its normal.
@@ -74,8 +77,8 @@ public:
     // Adds samples [first, first + count) of every pixel, tile by tile, while `wanted` (called often, from many threads) returns
     // true. False if stopped: pixels then hold different numbers of samples, which can be shown but not continued. Results do not
     // depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per pixel on
-    // average (sample_allocation.h), whatever `first`. Where the pilots gain much, the first sample of a film is rendered again with the
-    // second (LearnedSampling::renews_first).
+    // average (sample_allocation.h), whatever `first`, except for a part. Where the pilots gain much, the first sample of a film is
+    // rendered again with the second (LearnedSampling::renews_first).
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});

@@ -242,7 +242,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.first_is_rough = s.first_is_rough && s.samples == 1;
     state.samples = s.samples;
     state.shares = s.sample_allocation.shares();
-    if (s.settings.adaptive && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
+    if (s.settings.adaptive && first == 0 && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
     state.reuse_pilot = s.reuse.pilot();
     state.highlights = s.highlights;
     state.rays = s.rays;
@@ -263,10 +263,10 @@ Result<void> Renderer::load_film(const FilmState& state) {
         return error;
     };
     if (state.samples < 1) return refused({"", "there are no samples", ""});
-    const bool marked = s.settings.adaptive && in_mid_pilot(state.samples);
+    const bool marked = s.settings.adaptive && state.first_sample == 0 && in_mid_pilot(state.samples);
     if (marked && state.marked.size() != 2 * size_t(s.film.width()) * size_t(s.film.height()))
         return refused({"", "the saved samples lack the pilot of adaptive sampling", ""});
-    const bool decided = s.settings.adaptive && state.samples >= SampleAllocation::pilot_samples;
+    const bool decided = s.settings.adaptive && state.first_sample + state.samples >= SampleAllocation::pilot_samples;
     if (decided && !s.sample_allocation.restore(state.shares))
         return refused({"", "the saved samples lack the plan of adaptive sampling", ""});
     if (const auto loaded = blush::load_film(s.film, state); !loaded) return refused(loaded.error());

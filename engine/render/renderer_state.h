@@ -156,6 +156,7 @@ struct Renderer::State {
         film.reset(size, settings.clamp);
         film.set_gains(mixing.gains);
         sample_allocation.reset(film_width(), film_height());
+        if (options.allocation && divider == 1) sample_allocation.restore(*options.allocation);
         film_is_stale = false;
     }
     // For a film without samples, once the pilots have decided.

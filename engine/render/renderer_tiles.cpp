@@ -210,7 +210,7 @@ bool Renderer::decide(const std::function<bool()>& wanted) { return state_->deci
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
-    const int64_t begin = s.settings.adaptive ? s.samples : first;
+    const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.samples : first;
     if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
         if (!s.decide(wanted)) return false;
         if (s.samples == 0) s.begin_splats();
@@ -227,7 +227,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
         if (next == 0 && s.first_differs()) step = 1;
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
-        const bool planned = s.settings.adaptive && s.sample_allocation.decided();
+        const bool planned = s.settings.adaptive && next >= SampleAllocation::pilot_samples && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||
             !s.trace_light_paths(next, step, wanted))
             return !(s.film_is_uneven = true);
@@ -241,7 +241,8 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         }
         s.samples += step;
         done += step;
-        if (!s.settings.adaptive) continue;
+        // The pilot is measured in a film that holds it from its first sample.
+        if (!s.settings.adaptive || s.sample_allocation.decided() || s.samples != next + step) continue;
         if (s.samples == SampleAllocation::pilot_samples / 2) s.pilot_variance.mark(s.film);
         if (s.samples == SampleAllocation::pilot_samples) s.sample_allocation.decide(s.pilot_variance.measure(s.film));
     }

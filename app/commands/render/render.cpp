@@ -6,6 +6,7 @@
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
 #include "app/commands/progress.h"
+#include "app/commands/render/allocation_file.h"
 #include "app/commands/render/command_feature_report.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/frame_json.h"
@@ -245,11 +246,27 @@ Result<void> write_image(const RenderCommand& c, const Plan& plan, const Rendere
                               {frame.albedo, coverage}, opacity_of(frame));
 }
 
+// Errors: unreadable, of another scene or size.
+Result<SampleAllocation::Shares> allocation_for(const std::string& file, const LoadedScene& loaded, const RenderSettings& settings) {
+    Result<AllocationFile> allocation = read_allocation(file);
+    if (!allocation) return allocation.error();
+    if (allocation->scene_hash != scene_hash(loaded.imported)) return Error{file, "was made for another scene", "scene_hash"};
+    if (allocation->width != settings.width || allocation->height != settings.height)
+        return Error{file, fmt::format("was made for an image of {}x{}", allocation->width, allocation->height), ""};
+    return std::move(allocation->shares);
+}
+
 // Renders, denoises if requested, and writes the output. The raw render is written even if denoising fails.
 Result<Rendered> render_image(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
                               Denoiser& denoiser, const std::atomic<bool>& interrupted) {
-    const bool is_part = c.options.samples_given || (plan.begun && plan.begun->film.first_sample > 0);
-    Renderer renderer({.threads = c.common.threads, .planes = planes_for(c, plan), .is_part = is_part});
+    RendererOptions options{.threads = c.common.threads, .planes = planes_for(c, plan)};
+    options.is_part = c.options.samples_given || (plan.begun && plan.begun->film.first_sample > 0);
+    if (!c.options.allocation.empty()) {
+        Result<SampleAllocation::Shares> shares = allocation_for(c.options.allocation, loaded, plan.settings);
+        if (!shares) return shares.error();
+        options.allocation = *std::move(shares);
+    }
+    Renderer renderer(options);
     renderer.update(loaded.scene, plan.settings);
     LoopProgress begin;
     if (plan.begun) {
@@ -386,6 +403,9 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
         ->type_name("LIST");
     sub->add_option("--continue", command->begun, "Resume a render that was saved with the layer film, up to --spp, --time or --error")
         ->type_name("EXR");
+    sub->add_option("--allocation", command->options.allocation,
+                    "With --samples and --adaptive on: allocation of adaptive sampling that merge --allocation has written")
+        ->type_name("JSON");
     sub->add_option("--pixel", command->pixel, "Trace a single sample and print every vertex, instead of rendering")
         ->type_name("X,Y[,SAMPLE]");
     add_common_options(*sub, command->common);

@@ -2,6 +2,7 @@
 
 #include "app/commands/denoising.h"
 #include "core/text.h"
+#include "render/film/sample_allocation.h"
 #include "scene/validate.h"
 
 #include <CLI/CLI.hpp>
@@ -244,12 +245,24 @@ void follow_aspect(RenderOptions& options, float aspect) {
         s.height = pixels(double(s.width) / double(aspect));
 }
 
+namespace {
+
+// Parts of the pilot of adaptive sampling, from which the allocation is decided, end at its half and at its end.
+bool is_pilot_range(int64_t first, int64_t last) {
+    constexpr int64_t half = SampleAllocation::pilot_samples / 2;
+    return first == 0 || last <= half || (first >= half && last <= 2 * half);
+}
+
+} // namespace
+
 Result<RenderSettings> settings_of(const RenderOptions& options) {
     RenderSettings settings = options.settings;
     if (options.spp_given && options.samples_given) return Error{.what = "--spp and --samples exclude each other"};
     if (options.samples_given && !options.adaptive_given) settings.adaptive = false;
-    if (settings.adaptive && options.samples_given)
-        return Error{.what = "--samples and --adaptive exclude each other: adaptive sampling chooses the samples per pixel itself"};
+    if (settings.adaptive && options.samples_given && options.allocation.empty() && !is_pilot_range(settings.first_sample, settings.spp))
+        return Error{.what = "--samples of adaptive sampling needs --allocation, or a part of the pilot: A:B within 0:8 or 8:16"};
+    if (!options.allocation.empty() && !(settings.adaptive && options.samples_given))
+        return Error{.what = "--allocation needs --samples and --adaptive on"};
     if (const auto& r = options.region) {
         const float w = float(settings.width), h = float(settings.height);
         if (r->x1 > settings.width || r->y1 > settings.height)

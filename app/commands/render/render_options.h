@@ -8,6 +8,7 @@
 #include "scene/view_settings.h"
 
 #include <optional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -21,6 +22,7 @@ struct RenderOptions {
     SceneOverrides overrides;
     std::optional<DenoiseQuality> denoise;          // empty: off
     std::optional<PixelRect> region;                // of an image of the requested size; empty: all of it
+    std::string allocation;                         // file of adaptive sampling for a part; empty: none
     bool width_given = false, height_given = false; // by --size; a missing side follows the camera's aspect ratio
     bool size_given = false, spp_given = false, samples_given = false, adaptive_given = false, reuse_given = false;
 };
@@ -35,7 +37,8 @@ void add_view_options(CLI::App& app, ViewSettings& view);
 void follow_aspect(RenderOptions& options, float aspect);
 
 // Combines the options: a time or error limit without --spp removes the default sample limit; --samples disables adaptive
-// sampling. Errors: contradicting options, numbers out of range (validate.h).
+// sampling unless it is given; then samples beyond the pilot need an allocation. Errors: contradicting options, numbers out of range
+// (validate.h).
 Result<RenderSettings> settings_of(const RenderOptions& options);
 
 } // namespace blush

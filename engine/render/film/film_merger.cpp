@@ -38,6 +38,8 @@ Result<void> FilmMerger::add(const FilmState& part) {
     if (state_.samples == 0) {
         if (const auto loaded = load_new_film(film_, part, settings_); !loaded) return loaded.error();
         state_ = head_of(part);
+        pilot_.restore(part.marked);
+        measure_pilot();
         return {};
     }
     const int64_t end = state_.first_sample + state_.samples;
@@ -45,6 +47,8 @@ Result<void> FilmMerger::add(const FilmState& part) {
     if (part.first_sample > end) return Error{"", fmt::format("samples {} to {} are in neither file", end, part.first_sample - 1), ""};
     // Its first sample has another estimator than that of a longer render.
     if (state_.first_is_rough) return Error{"", "the first sample was rendered alone: render it with --samples 0:1", ""};
+    if (!state_.shares[0].empty() && !part.shares[0].empty() && state_.shares != part.shares)
+        return Error{"", "was rendered with another allocation of adaptive sampling", ""};
     if (const auto added = add_film(film_, part); !added) return added.error();
     state_.samples += part.samples;
     state_.seconds += part.seconds;
@@ -53,7 +57,20 @@ Result<void> FilmMerger::add(const FilmState& part) {
     if (!state_.reuse_pilot) state_.reuse_pilot = part.reuse_pilot;
     if (!state_.highlights) state_.highlights = part.highlights;
     add_counts(state_.path_counts, part.path_counts);
+    if (state_.shares[0].empty()) state_.shares = part.shares;
+    measure_pilot();
     return {};
+}
+
+// As a renderer does that renders all parts.
+void FilmMerger::measure_pilot() {
+    if (!settings_.adaptive || state_.first_sample > 0 || !state_.shares[0].empty()) return;
+    if (state_.samples == SampleAllocation::pilot_samples / 2) pilot_.mark(film_);
+    if (state_.samples != SampleAllocation::pilot_samples || pilot_.marked().empty()) return;
+    SampleAllocation allocation;
+    allocation.reset(film_.width(), film_.height());
+    allocation.decide(pilot_.measure(film_));
+    state_.shares = allocation.shares();
 }
 
 FilmState FilmMerger::sum() const {
@@ -62,6 +79,7 @@ FilmState FilmMerger::sum() const {
     head.planes = std::move(sum.planes);
     head.passes = sum.passes;
     head.health = std::move(sum.health);
+    if (state_.samples < SampleAllocation::pilot_samples) head.marked = pilot_.marked();
     return head;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <utility>
 
@@ -150,6 +151,52 @@ TEST(Merge, OfAnyRangesIsTheWholeRenderInEveryBit) {
     }
 }
 
+// Many machines: a pilot in two parts, its allocation, and further parts by that; the image is that of one adaptive render.
+TEST(Merge, OfPartsByAnAllocationIsTheAdaptiveRender) {
+    const TemporaryFolder folder;
+    const Arguments render{"render",   scene_file("veach-mis"),    "--size", "64x48", "--quiet", "--adaptive", "on",
+                           "--layers", "samples,error,film,groups"};
+    expect_done(with(render, {"--spp", "40", "-o", folder / "whole.exr"}));
+    const auto part = [&](const std::string& range, const Arguments& more = {}) {
+        expect_done(with(with(render, {"--samples", range, "-o", folder / (range + ".exr")}), more));
+        return folder / (range + ".exr");
+    };
+    const std::string a = part("0:8"), b = part("8:13"), c = part("13:16"), allocation = folder / "allocation.json";
+    expect_done({"merge", a, c, b, "-o", folder / "pilot.exr", "--allocation", allocation, "--quiet"});
+    const std::string d = part("16:21", {"--allocation", allocation}), e = part("21:40", {"--allocation", allocation});
+    expect_done({"merge", e, b, d, a, c, "-o", folder / "merged.exr", "--quiet"});
+    expect_same_channels(folder / "merged.exr", folder / "whole.exr");
+    // Not uniform: else this would prove nothing.
+    const std::vector<float> samples = read_layers(folder / "merged.exr")->find("samples.Y")->values;
+    EXPECT_LT(*std::ranges::min_element(samples), 36);
+    EXPECT_GT(*std::ranges::max_element(samples), 48);
+    // And the pilot continues as one render.
+    expect_done({"render", scene_file("veach-mis"), "--continue", folder / "pilot.exr", "--spp", "40", "-o", folder / "on.exr", "--quiet",
+                 "--layers", "samples,error,film,groups"});
+    expect_same_channels(folder / "on.exr", folder / "whole.exr");
+
+    const auto fails = [&](const Arguments& arguments, int code, const std::string& why) {
+        const Finished finished = blush(arguments);
+        EXPECT_EQ(finished.exit_code, code) << finished.err;
+        EXPECT_NE(finished.err.find(why), std::string::npos) << finished.err;
+    };
+    const Arguments out{"-o", folder / "out.exr"};
+    fails(with(with(render, out), {"--samples", "16:20"}), 2, "--allocation");
+    fails(with(with(render, out), {"--samples", "4:12"}), 2, "--allocation");
+    fails(with({"render", scene_file("cornell"), "--size", "64x48", "--adaptive", "on", "--samples", "16:20", "--allocation", allocation},
+               out),
+          1, "another scene");
+    fails({"render", scene_file("veach-mis"), "--size", "32x24", "--adaptive", "on", "--samples", "16:20", "--allocation", allocation, "-o",
+           folder / "out.exr"},
+          1, "64x48");
+    fails(with({"merge", a, b, "--allocation", folder / "none.json"}, out), 1, "no allocation");
+    std::string text;
+    std::getline(std::ifstream(allocation), text);
+    text.replace(text.find("\"width\":64") + 8, 2, "65");
+    std::ofstream(folder / "damaged.json") << text;
+    fails(with(with(render, out), {"--samples", "16:20", "--allocation", folder / "damaged.json"}), 1, "damaged");
+}
+
 // 200 partitions of one image, in random order.
 TEST(Merge, DoesNotDependOnThePartition) {
     const TemporaryFolder folder;
@@ -218,8 +265,12 @@ TEST(Merge, RefusesImagesOfDifferentRenders) {
     render("sky.exr", {"--samples", "2:4", "--env", "constant=1,1,1"});
     render("adaptive.exr", {"--spp", "2", "--adaptive", "on"});
     const std::pair<const char*, const char*> wrong[] = {
-        {"gap.exr", "missing"},       {"overlap.exr", "contains sample 1"}, {"seed.exr", "other settings"},
-        {"sky.exr", "another scene"}, {"adaptive.exr", "cannot be merged"}, {"nowhere.exr", "nowhere.exr"},
+        {"gap.exr", "missing"},
+        {"overlap.exr", "contains sample 1"},
+        {"seed.exr", "other settings"},
+        {"sky.exr", "another scene"},
+        {"adaptive.exr", "cannot be merged from their means"},
+        {"nowhere.exr", "nowhere.exr"},
     };
     for (const auto& [name, why] : wrong) {
         const Finished finished = blush({"merge", folder / "a.exr", folder / name, "-o", folder / "out.exr"});
@@ -230,6 +281,58 @@ TEST(Merge, RefusesImagesOfDifferentRenders) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
     EXPECT_EQ(blush({"merge", folder / "a.exr", "-o", folder / "out.exr"}).exit_code, 2);
     EXPECT_EQ(blush({"merge", folder / "a.exr", folder / "gap.exr", "-o", folder / "out.png"}).exit_code, 2);
+}
+
+// Changes one bit of a sum, or the header, of a part.
+TEST(Merge, RefusesDamagedPartsAndOtherVersions) {
+    const TemporaryFolder folder;
+    const Arguments film{"--layers", "film"};
+    expect_done(with(with(tiny(folder / "a.exr"), film), {"--samples", "0:2"}));
+    expect_done(with(with(tiny(folder / "b.exr"), film), {"--samples", "2:4"}));
+    const auto fails = [&](const auto& change, const std::string& why) {
+        LayeredImage image = *read_layers(folder / "b.exr");
+        change(image);
+        ASSERT_TRUE(write_exr(folder / "changed.exr", image));
+        const Finished finished = blush({"merge", folder / "a.exr", folder / "changed.exr", "-o", folder / "out.exr"});
+        EXPECT_EQ(finished.exit_code, 1) << why;
+        EXPECT_NE(finished.err.find("changed.exr"), std::string::npos) << finished.err;
+        EXPECT_NE(finished.err.find(why), std::string::npos) << finished.err;
+        EXPECT_TRUE(test::is_one_line(finished.err)) << finished.err;
+    };
+    fails(
+        [](LayeredImage& image) {
+            LayeredImage::Channel channel = *image.find("film.odd.G.fraction.low");
+            channel.words[77] ^= 1u << 13;
+            image.set(channel);
+        },
+        "checksum");
+    fails([](LayeredImage& image) { image.metadata["blush:version"] = "0.1.9"; }, "version of Blush, 0.1.9");
+    const std::filesystem::path truncated = folder / "changed.exr";
+    std::filesystem::copy_file(folder / "b.exr", truncated, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(truncated, std::filesystem::file_size(truncated) * 3 / 4);
+    const Finished finished = blush({"merge", folder / "a.exr", truncated, "-o", folder / "out.exr"});
+    EXPECT_EQ(finished.exit_code, 1);
+    EXPECT_NE(finished.err.find("changed.exr"), std::string::npos) << finished.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.exr"));
+}
+
+// One part at a time: forty parts take the memory of four.
+TEST(Merge, TakesTheMemoryOfAFewParts) {
+    const TemporaryFolder folder;
+    const Arguments render{"render", scene_file("furnace"), "--size", "640x480", "--quiet", "--layers", "film"};
+    const auto peak = [&](int parts) {
+        Arguments merge{"merge", "-o", folder / "merged.exr"};
+        for (int k = 0; k < parts; ++k) {
+            const std::string file = folder / (std::to_string(k) + ".exr");
+            if (!std::filesystem::exists(file))
+                expect_done(with(render, {"--samples", std::to_string(k) + ":" + std::to_string(k + 1), "-o", file}));
+            merge.push_back(file);
+        }
+        return test::blush_json(merge)["peak_memory_mb"].get<double>();
+    };
+    const double few = peak(4), many = peak(40);
+    EXPECT_GT(few, 640 * 480 * 112 * 1e-6) << "the film alone";
+    EXPECT_LT(many, 1.1 * few);
 }
 
 } // namespace
