@@ -26,9 +26,10 @@ constexpr const char* job_script = R"sh(#!/bin/sh
 set -eu
 command=$(sed -n "$(($2 + SLURM_ARRAY_TASK_ID))p" "$1")
 [ -n "$command" ] || {
-    echo "slurm-job.sh: $1 has no line $(($2 + SLURM_ARRAY_TASK_ID))" > &2 exit 1
+    echo "slurm-job.sh: $1 has no line $(($2 + SLURM_ARRAY_TASK_ID))" >&2
+    exit 1
 }
-#As this process, so that SIGTERM reaches Blush : it writes the samples so far.
+# As this process, so that SIGTERM reaches Blush: it writes the samples so far.
 eval "exec $command --quiet --threads ${SLURM_CPUS_PER_TASK:-${SLURM_CPUS_ON_NODE:-1}}"
 )sh";
 
