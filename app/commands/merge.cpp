@@ -4,6 +4,7 @@
 #include "app/commands/json_output.h"
 #include "app/commands/render/allocation_file.h"
 #include "app/commands/render/film_json.h"
+#include "app/commands/render/peak_memory.h"
 #include "app/commands/render/write_image.h"
 #include "render/film/film_merger.h"
 
@@ -108,18 +109,17 @@ Result<LayeredImage> read_pixels(const Input& input) {
 
 // ---- merging sums
 
-// The layers of the merged image: those of the first file.
-Layers layers_of(const LayeredImage& image) {
+// Adds the layers of a part: one of a single sample has no error.
+void add_layers(Layers& layers, const LayeredImage& image) {
     const auto has = [&](const char* channel) { return image.find(channel) != nullptr; };
     const bool groups = std::ranges::any_of(image.channels, [](const auto& channel) { return channel.name.starts_with("group."); });
-    return {.albedo = has("albedo.R"),
-            .normal = has("normal.X"),
-            .depth = has("depth.Z"),
-            .error = has("error.R"),
-            .samples = has("samples.Y"),
-            .ids = has("id.object"),
-            .film = true,
-            .groups = groups};
+    layers.albedo |= has("albedo.R");
+    layers.normal |= has("normal.X");
+    layers.depth |= has("depth.Z");
+    layers.error |= has("error.R");
+    layers.samples |= has("samples.Y");
+    layers.ids |= has("id.object");
+    layers.groups |= groups;
 }
 
 Result<void> write_allocation_of(const MergeCommand& c, const FilmState& sum, const SnapshotMetadata& metadata) {
@@ -134,11 +134,11 @@ Result<void> write_allocation_of(const MergeCommand& c, const FilmState& sum, co
 Result<void> write_sum(const MergeCommand& c, const std::vector<Input>& inputs, Merged& merged) {
     SnapshotMetadata& metadata = merged.metadata;
     FilmMerger merger(metadata.settings);
-    std::optional<Layers> layers;
+    Layers layers{.film = true};
     for (const Input& input : inputs) {
         Result<LayeredImage> image = read_pixels(input);
         if (!image) return image.error();
-        if (!layers) layers = layers_of(*image);
+        add_layers(layers, *image);
         const Result<FilmState> part = film_in_file(*image, input.metadata);
         if (!part) return in_file(part.error(), input.file);
         if (part->first_sample != input.metadata.first_sample || part->samples != input.metadata.spp)
@@ -156,8 +156,8 @@ Result<void> write_sum(const MergeCommand& c, const std::vector<Input>& inputs, 
     merged.height = sum.height;
     const std::vector<LosslessPlane> planes = planes_in_file(sum);
     ExtraLayers extra{.film = planes};
-    if (layers->error) extra.error = resolved->error;
-    const Result<int64_t> written = write_exr_image(c.output, resolved->frame, extra, *layers, metadata);
+    if (layers.error) extra.error = resolved->error;
+    const Result<int64_t> written = write_exr_image(c.output, resolved->frame, extra, layers, metadata);
     return written ? Result<void>() : written.error();
 }
 
@@ -245,6 +245,7 @@ OrderedJson merged_json(const MergeCommand& c, const Merged& m) {
             {"seconds", m.metadata.seconds},
             {"from", m.exact ? "sums" : "means"},
             {"partial", m.metadata.partial},
+            {"peak_memory_mb", peak_memory_mb()},
             {"output", c.output}};
 }
 

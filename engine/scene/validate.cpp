@@ -204,8 +204,6 @@ Result<void> validate(const RenderSettings& settings) {
     check.not_negative("first sample", double(settings.first_sample));
     check.is(settings.spp == 0 || settings.first_sample < settings.spp,
              fmt::format("first sample must be below the last, {}, not {}", settings.spp, settings.first_sample));
-    check.is(!settings.adaptive || settings.first_sample == 0,
-             fmt::format("adaptive sampling must start at sample 0, not {}", settings.first_sample));
     check.region("rendered region", settings.region);
     check.is(settings.max_bounces >= unlimited_bounces, fmt::format("bounces must be a number from 0, not {}", settings.max_bounces));
     check.is(!reuse_text(settings.reuse).empty(),

@@ -63,7 +63,7 @@ Result<Part> render_part(const std::filesystem::path& folder, const RenderPlan& 
     RenderSettings settings = look.settings;
     settings.first_sample = samples.first;
     settings.spp = samples.last;
-    Renderer renderer({.threads = run.threads, .planes = planes_of(*parse_layers(plan.layers))});
+    Renderer renderer({.threads = run.threads, .planes = planes_of(*parse_layers(plan.layers)), .is_part = true});
     renderer.update(loaded.scene, settings);
     LoopResult loop;
     {
