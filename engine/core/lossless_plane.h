@@ -14,6 +14,8 @@ struct LosslessPlane {
     std::vector<double> sums = {};
     std::vector<uint32_t> words = {};
     std::vector<double> fractions = {}; // of exact sums (exact_sum.h), whose integer parts are the sums; else empty
+    // A sum, rounded once.
+    double sum(size_t pixel) const { return fractions.empty() ? sums[pixel] : sums[pixel] + fractions[pixel]; }
     size_t size() const { return sums.empty() ? words.size() : sums.size(); }
     bool operator==(const LosslessPlane&) const = default;
 };

@@ -134,18 +134,17 @@ TEST(SplatPlanes, PassesDependNeitherOnThreadsNorOnLists) {
         return save_film(film);
     };
     // In order, one by one.
-    std::vector<Vec3d> expected(2 * width * height, Vec3d{0, 0, 0});
+    std::vector<ExactSum3> expected(2 * width * height);
     std::mt19937 bits(7);
     for (size_t pass = 0; pass < 3; ++pass)
         for (const Splat& s : random_splats(bits, width * height, count)) {
             if (!(s.radiance.y >= 0 && s.radiance.y < inf)) continue;
-            Vec3d& sum = expected[2 * size_t(s.pixel) + pass % 2];
-            sum = {sum.x + double(s.radiance.x), sum.y + double(s.radiance.y), sum.z + double(s.radiance.z)};
+            expected[2 * size_t(s.pixel) + pass % 2].add({double(s.radiance.x), double(s.radiance.y), double(s.radiance.z)});
         }
     const FilmState one = trace(1, 1);
     for (size_t i = 0; i < width * height; ++i) {
-        ASSERT_EQ(one.find("even.splats.R")->sums[i], expected[2 * i].x);
-        ASSERT_EQ(one.find("odd.splats.B")->sums[i], expected[2 * i + 1].z);
+        ASSERT_EQ(one.find("even.splats.R")->sum(i), expected[2 * i].x.value());
+        ASSERT_EQ(one.find("odd.splats.B")->sum(i), expected[2 * i + 1].z.value());
     }
     EXPECT_EQ(one.health.dropped(), 3 * 52);
     for (const unsigned threads : {1u, 2u, 3u, 8u, 200u})
@@ -301,9 +300,9 @@ TEST(SplatPlanes, StatesKeepThem) {
         const Result<ResolvedFilm> resolved = resolve_film(state, {.adaptive = adaptive}, 1);
         ASSERT_TRUE(resolved);
         EXPECT_EQ(resolved->frame.rgba, f.resolve().rgba);
-        const double even = f.film.sum(6, 0).x / 3, splats = state.find("even.splats.R")->sums[6];
+        const double even = f.film.sum(6, 0).x / 3, splats = state.find("even.splats.R")->sum(6);
         EXPECT_GT(splats, 0);
-        EXPECT_DOUBLE_EQ(even, state.find("even.R")->sums[6] / 3 + splats / 3);
+        EXPECT_DOUBLE_EQ(even, state.find("even.R")->sum(6) / 3 + splats / 3);
     }
 }
 

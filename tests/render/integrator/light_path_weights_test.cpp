@@ -53,7 +53,7 @@ Parts parts_of(const Scene& scene, const RenderSettings& settings, float light_p
         const LosslessPlane* planes[3] = {film->find(name + ".R"), film->find(name + ".G"), film->find(name + ".B")};
         if (!planes[0]) return;
         const double scale = 1 / double(settings.spp); // both halves have as many samples and passes
-        for (size_t i = 0; i < to.size(); ++i) to[i] = to[i] + Vec3d{planes[0]->sums[i], planes[1]->sums[i], planes[2]->sums[i]} * scale;
+        for (size_t i = 0; i < to.size(); ++i) to[i] = to[i] + Vec3d{planes[0]->sum(i), planes[1]->sum(i), planes[2]->sum(i)} * scale;
     };
     for (int half = 0; half < 2; ++half) {
         add(parts.camera, half == 0 ? "even" : "odd");

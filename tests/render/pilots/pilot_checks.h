@@ -71,12 +71,12 @@ inline void expect_log_follows_image(const Scene& scene, const RenderSettings& s
     ASSERT_TRUE(renderer.render(5, 1));
     const Result<FilmState> film = renderer.save_film(5);
     ASSERT_TRUE(film);
-    const std::vector<double>& reds = film->find("odd.R")->sums;
+    const LosslessPlane& reds = *film->find("odd.R");
     for (const auto& [x, y] : {std::pair{10, 20}, {30, 42}, {40, 43}, {50, 44}, {70, 10}}) {
         const std::string log = trace_sample(scene, settings, x, y, 5);
         float red = -1;
         std::sscanf(log.c_str() + log.rfind("radiance ("), "radiance (%f", &red);
-        EXPECT_NEAR(double(red), reds[size_t(y * settings.width + x)], 5e-6 * double(red)) << log;
+        EXPECT_NEAR(double(red), reds.sum(size_t(y * settings.width + x)), 5e-6 * double(red)) << log;
     }
 }
 
