@@ -62,7 +62,7 @@ struct PathPen {
         const auto l = seen(a, b);
         if (!l) return;
         const ImVec2 d{l->b.x - l->a.x, l->b.y - l->a.y};
-        const float length = std::hypot(d.x, d.y), period = em * (prominent ? 0.7f : 1.4f);
+        const float length = std::hypot(d.x, d.y), period = em * (prominent ? 0.7f : 4.f);
         for (float t = -phase * period; t < length; t += period) {
             const float from = std::max(t, 0.f) / length, to = std::clamp(t + period / 2, 0.f, length) / length;
             if (from >= to) continue;
@@ -90,7 +90,10 @@ struct PathPen {
     }
     void label(const Vec3d& p, const std::string& text) const {
         const auto c = at(p);
-        if (c) draw_label(draw, text, {c->x + em * 0.6f, c->y + em * 0.2f}, em * 12, tone::text);
+        if (!c) return;
+        const ImVec2 size = label_size(text, em * 12), high = draw.GetClipRectMax();
+        draw_label(draw, text, {std::min(c->x + em * 0.6f, high.x - size.x), std::min(c->y + em * 0.2f, high.y - size.y)}, em * 12,
+                   tone::text);
     }
 };
 
@@ -186,10 +189,14 @@ void draw_path_lines(ImDrawList& draw, const ImageRect& image, const Projection&
     const size_t others = view.others ? std::min(set->paths.size(), most_drawn_paths) : 0;
     // Many paths together are about as opaque as a few.
     const int alpha = std::clamp(int(4000 / std::max<size_t>(others, 1)), 30, 120);
+    // Without a graphics card, smooth edges of many lines take as long as the rest of the frame.
+    const ImDrawListFlags flags = draw.Flags;
+    draw.Flags &= ~ImDrawListFlags_AntiAliasedLines;
     const PathPen thin{draw, image, projection, em, false, alpha};
     for (size_t k = 0; k < others; ++k)
         if (const RecordedPath& path = *set->paths[k]; &path != shown)
             draw_path(thin, path, path.vertices.size(), 0.6f * width_of(path, brightest, em));
+    draw.Flags = flags;
     const PathPen pen{draw, image, projection, em, true, 255};
     draw_path(pen, *shown, view.shown_vertices(), 1 + width_of(*shown, brightest, em));
 }

@@ -39,11 +39,11 @@ void swatch(const Vec3& color, float em) {
 
 // A paragraph for each part between semicolons.
 void paragraphs(std::string_view text, ImU32 color, float indent) {
-    ImGui::Indent(indent);
+    if (indent > 0) ImGui::Indent(indent); // 0 is ImGui's own distance
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     for (const std::string_view part : split(text, ';')) wrapped_text(part.starts_with(' ') ? part.substr(1) : part);
     ImGui::PopStyleColor();
-    ImGui::Unindent(indent);
+    if (indent > 0) ImGui::Unindent(indent);
 }
 
 void draw_vertex(PanelContext& c, const PathVertex& v, RgbChannel channel) {
