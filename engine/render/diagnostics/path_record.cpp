@@ -50,7 +50,7 @@ std::vector<Vec3d> by_length(const RecordedPath& path, size_t lengths) {
     };
     for (const PathVertex& v : path.vertices) {
         add(size_t(v.bounce), v.emission + v.panes + v.past);
-        add(size_t(v.bounce) + 1, v.chains);
+        add(size_t(v.bounce) + 2, v.chains); // over a mirror or glass
         if (v.next_event) add(size_t(v.bounce) + 1, v.next_event->arrived);
     }
     return sums;

@@ -99,8 +99,8 @@ struct RecordedPath {
 // Light of a path by the strategy that found it (found_by.h).
 using LightByStrategy = std::array<Vec3d, size_t(found_by_count)>;
 LightByStrategy by_strategy(const RecordedPath& path);
-// Light of a path by its length: element k is light that was scattered k times; the last one contains all longer paths. Light paths are
-// not part of it: they do not say how often they were scattered.
+// Light of a path by its length: element k is light that was scattered k times; the last one contains all longer paths. Chains of
+// manifold sampling count as one event on a mirror or glass. Light paths are not part of it: they do not say how often they were scattered.
 std::vector<Vec3d> by_length(const RecordedPath& path, size_t lengths);
 
 } // namespace blush
