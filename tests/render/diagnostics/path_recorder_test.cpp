@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -118,6 +119,12 @@ TEST(PathRecorder, FactorsGiveTheThroughput) {
                     const NextEvent& e = *v.next_event;
                     expect_near(to_double(e.sent), to_double(v.arriving * e.f_cos * e.radiance * (e.mis / e.light_pdf)), 1e-4, name);
                     EXPECT_EQ(e.blocked, e.arrived == (Vec3{0, 0, 0}));
+                    if (v.scatters == ScatterKind::diffuse) {
+                        const Vec3d towards = normalize(e.to - e.from);
+                        const double cosine = std::abs(dot(to_double(v.ns), towards));
+                        expect_near(to_double(e.f_cos), to_double(v.color) * (cosine / std::numbers::pi), 1e-3, name);
+                        expect_near(to_double(v.factor), to_double(v.color), 1e-5, name);
+                    }
                     EXPECT_GT(dot(e.to - e.from, e.to - e.from), 0);
                     ++connected;
                     blocked += e.blocked && !e.blocker.empty();
@@ -185,9 +192,12 @@ TEST(PathRecorder, CompilesOnlyWhatChanges) {
     EXPECT_FALSE(recorder.update(scene, settings));
     settings.spp = 77; // a stop rule
     EXPECT_FALSE(recorder.update(scene, settings));
+    ASSERT_TRUE(recorder.decide());
+    EXPECT_TRUE(recorder.decided());
     Scene turned = scene;
     turned.view.position.x += 0.1f;
     EXPECT_TRUE(recorder.update(turned, settings));
+    EXPECT_FALSE(recorder.decided()); // pilots depend on the view
     const RecordedPath moved = recorder.record(4, 4, 0);
     PathRecorder fresh(1);
     fresh.update(turned, settings);
