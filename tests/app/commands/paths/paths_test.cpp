@@ -62,15 +62,16 @@ TEST(Paths, PrintsTheLessonsArithmetic) {
     EXPECT_GT(found, 10);
 }
 
-// By default: adaptive sampling off, path reuse and smooth edges on in the image, but not in the sum.
+// Adaptive sampling is off; path reuse and smooth edges are in the image, but not in the sum.
 TEST(Paths, SumsToWhatRenderWrites) {
     const TemporaryFolder folder;
-    const Json json = blush_json(paths_of("cornell", "16,12", "3:35"));
+    const Json json = blush_json(paths_of("cornell", "16,12", "3:35", {"--reuse", "16"}));
     ASSERT_TRUE(json.is_object());
     EXPECT_LT(json["film"]["difference"].get<double>(), 1e-6);
     EXPECT_EQ(json["film"]["left_out"].size(), 2u);
+    EXPECT_NE(json["film"]["image"], json["film"]["mean"]);
     for (const auto& [more, mean] : {std::pair{std::vector<std::string>{"--reuse", "off", "--smooth-edges", "off"}, json["sum"]["mean"]},
-                                     {std::vector<std::string>{}, json["film"]["image"]}}) {
+                                     {std::vector<std::string>{"--reuse", "16"}, json["film"]["image"]}}) {
         std::vector<std::string> arguments{"render", scene_file("cornell"), "-o", folder / "a.exr", "--samples", "3:35", "--size", "32x20",
                                            "--quiet"};
         arguments.insert(arguments.end(), more.begin(), more.end());
