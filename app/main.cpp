@@ -6,6 +6,7 @@
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
 #include "app/commands/merge.h"
+#include "app/commands/paths/paths.h"
 #include "app/commands/plan/plan.h"
 #include "app/commands/render/render.h"
 #include "app/commands/render/render_options.h"
@@ -76,6 +77,7 @@ int run_command_line(int argc, char** argv) {
     add_denoise_command(app, run);
     add_merge_command(app, run);
     add_plan_command(app, run);
+    add_paths_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

@@ -224,8 +224,24 @@ def corridor():
     return scene
 
 
+# --- two-bounces ------------------------------------------------------------------------------------------------
+
+def two_bounces():
+    """A red wall of reflectance 0.7, a white floor of 0.9 and a lamp of 12 nits that reflects nothing: 0.7 x 0.9 x 12 = 7.56."""
+    scene = SceneWriter("two-bounces", "A red wall, a white floor and a lamp: a path over both surfaces is worth 0.7 x 0.9 x 12 = 7.56.")
+    red = scene.material("red", (0.7, 0.07, 0.06), lambertian=True)
+    white = scene.material("white", (0.9, 0.9, 0.9), lambertian=True)
+    light = scene.material("light", (0, 0, 0), lambertian=True, emission=(12, 12, 12))
+    scene.object("red wall", quad((-1.6, 0, 0), (1.6, 0, 0), (1.6, 2.4, 0), (-1.6, 2.4, 0)), red, "sheet")
+    scene.object("white floor", quad((-1.6, 0, 2.8), (1.6, 0, 2.8), (1.6, 0, 0), (-1.6, 0, 0)), white, "sheet")
+    x, y, z0, z1 = 0.9, 2.2, 0.4, 2.0
+    scene.object("lamp", quad((x, y, z0), (x, y, z1), (-x, y, z1), (-x, y, z0)), light, "sheet")
+    scene.camera("camera", (1.1, 1.5, 5.4), (0, 1.1, 0.6), yfov_degrees=34)
+    return scene
+
+
 if __name__ == "__main__":
-    for make in (card_and_mug, cornell, furnace, veach_mis, corridor, *caustic_scenes.SCENES):
+    for make in (card_and_mug, cornell, furnace, veach_mis, corridor, two_bounces, *caustic_scenes.SCENES):
         for name, content in make().files().items():
             if "--check" not in sys.argv:
                 (FOLDER / name).write_bytes(content)

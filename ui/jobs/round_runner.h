@@ -19,7 +19,8 @@ namespace blush {
 //     struct Input;                                     with bool has_same_result(const Input&) const
 //     struct Output;
 //     void begin(const Input&);
-//     bool round(const std::function<bool()>& wanted);  false if it was cancelled because wanted() is false
+//     bool round(const std::function<bool()>& wanted);  false if it was cancelled because wanted() is false: the runner ends, or
+//                                                       another input waits, with which begin() is called next
 //     Output output() const;                            from the rounds so far
 //     static bool is_good(const Output&);               true if more rounds would not improve it
 // Exceptions thrown by begin() and round() are reported as a failure.
@@ -50,6 +51,7 @@ public:
             last_ = std::move(input);
             if (same) return;
             pending_ = last_;
+            superseded_ = true;
             state_ = {};
         }
         wake_.notify_one();
@@ -70,7 +72,7 @@ private:
         State state;
         try {
             if (input) work.begin(*input);
-            if (!work.round([this] { return !quit_; })) return;
+            if (!work.round([this] { return !quit_ && !superseded_; })) return;
             state.output = work.output();
             state.rests = Work::is_good(state.output);
         } catch (const std::exception& e) { state.failure = e.what(); }
@@ -88,6 +90,7 @@ private:
                 wake_.wait(lock, [&] { return quit_ || pending_ || (last_ && !state_.rests && state_.failure.empty()); });
                 if (quit_) return;
                 input.swap(pending_);
+                superseded_ = false;
             }
             render_batch(work, input);
         }
@@ -98,7 +101,8 @@ private:
     std::optional<Input> last_, pending_;
     State state_;
     std::atomic<bool> quit_{false};
-    std::thread thread_; // last member: starts after everything else is initialised
+    std::atomic<bool> superseded_{false}; // there is a pending input
+    std::thread thread_;                  // last member: starts after everything else is initialised
 };
 
 } // namespace blush

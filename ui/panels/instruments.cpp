@@ -44,6 +44,7 @@ const Instrument table[] = {
      open_roulette, draw_roulette_panel},
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", guide_page::measuring, bottom, 36, 16, draw_meters_panel),
+    by_flag<[](auto& ui) { return &ui.paths.open; }>("paths", "Paths", guide_page::paths, right, 26, 48, draw_paths_panel),
     by_flag<[](auto& ui) { return &ui.show_history; }>("history", "History", guide_page::docks, right, 18, 22, draw_history),
     by_flag<[](auto& ui) { return &ui.import_report.open; }>("import_report", "Import report", guide_page::own_file, right, 34, 30,
                                                              draw_import_report, false),

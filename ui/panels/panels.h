@@ -45,6 +45,7 @@ void draw_snapshot_panel(PanelContext& c); // name, note and file of one snapsho
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
+void draw_paths_panel(PanelContext& c);
 void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);

@@ -1,6 +1,7 @@
 #include "ui/viewport/view_tools.h"
 
 #include "core/math.h"
+#include "ui/viewport/path_lines.h"
 #include "ui/viewport/region_backdrop.h"
 #include "ui/viewport/viewport_marks.h"
 #include "ui/window/theme.h"
@@ -19,6 +20,7 @@ const char* hint_of(ViewTool tool) {
     case ViewTool::pick_white: return "Click a place that should be white.  Esc: cancel";
     case ViewTool::pick_color: return "Click to pick a colour (scene-linear).  Esc: cancel";
     case ViewTool::meter: return "Click a surface to place a light meter.  Esc: cancel";
+    case ViewTool::paths: return "Click a pixel, or drag a rectangle, to see its paths.  Esc: cancel";
     case ViewTool::region: return "Drag a rectangle to render only this region.  Esc: cancel";
     case ViewTool::measure: return "Drag a rectangle to measure.  Esc: cancel";
     }
@@ -62,6 +64,7 @@ void draw_rectangle(ImDrawList& draw, const ImageRect& image, const ImageRegion&
 void take_region(PanelContext& c, const ImageRegion& region) {
     const ViewTool tool = std::exchange(c.ui.tool, ViewTool::none);
     c.ui.tool_start.reset();
+    if (tool == ViewTool::paths) return trace_paths_of(c, region); // without width and height: of one pixel
     if (region.width <= 0 || region.height <= 0) return;
     if (tool == ViewTool::region) return render_region(c, region);
     ViewSettings v = c.project().view;
@@ -120,6 +123,7 @@ bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& im
         case ViewTool::pick_color: pick_color(c, u, v); break;
         case ViewTool::meter: place_meter(c, projection, u, v); break;
         case ViewTool::measure:
+        case ViewTool::paths:
         case ViewTool::region: c.ui.tool_start = ToolStart{u, v}; break;
         }
         if (!c.ui.tool_start) c.ui.tool = ViewTool::none;

@@ -16,6 +16,7 @@
 #include "ui/viewport/false_color_legend.h"
 #include "ui/viewport/meter_marks.h"
 #include "ui/viewport/orbit_camera.h"
+#include "ui/viewport/path_lines.h"
 #include "ui/viewport/picking.h"
 #include "ui/viewport/pixel_grid.h"
 #include "ui/viewport/view_tools.h"
@@ -399,6 +400,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     draw_surroundings(c, image, pace);
     draw_camera_frame(c, draw, image, seen, alone);
     compare_.draw_names(seen);
+    follow_paths(c);
     bool taken = use_tool(c, projection, image, hovered && !navigation_.busy());
     if (c.ui.tool == ViewTool::none) taken |= draw_overlays(c, projection, image, hovered && !navigation_.busy());
     const bool special = is_special(*shown_frame_, uploaded_view_), map = special && is_map(uploaded_view_);
@@ -407,6 +409,11 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     if (c.ui.settings.overlays) {
         draw_measured_region(draw, image, c.project().view);
         draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
+    }
+    if (c.ui.paths.open) {
+        draw.PushClipRect({seen.x, seen.y}, {seen.x + seen.width, seen.y + seen.height}, true);
+        draw_path_lines(draw, image, projection, c.ui.paths);
+        draw.PopClipRect();
     }
     if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
     draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);

@@ -9,14 +9,20 @@
 
 namespace blush {
 
-void WorldPen::line(Vec3d a, Vec3d b) const {
+std::optional<std::pair<ScreenPoint, ScreenPoint>> projected_line(const Projection& projection, const ImageRect& image, Vec3d a, Vec3d b) {
     const double near = 1e-3, da = dot(a - projection.eye(), projection.forward()), db = dot(b - projection.eye(), projection.forward());
-    if (da < near && db < near) return;
+    if (da < near && db < near) return {};
     if (da < near) a = a + (b - a) * ((near - da) / (db - da));
     if (db < near) b = b + (a - b) * ((near - db) / (da - db));
     const auto pa = projection.project(a), pb = projection.project(b);
-    if (!pa || !pb) return;
-    const ScreenPoint sa = image.at(*pa), sb = image.at(*pb);
+    if (!pa || !pb) return {};
+    return std::pair{image.at(*pa), image.at(*pb)};
+}
+
+void WorldPen::line(Vec3d a, Vec3d b) const {
+    const auto ends = projected_line(projection, image, a, b);
+    if (!ends) return;
+    const auto& [sa, sb] = *ends;
     const float width = std::max(1.f, ImGui::GetFontSize() / 12) * weight;
     const ImU32 shade = IM_COL32(0, 0, 0, 110 * (color >> IM_COL32_A_SHIFT) / 255);
     draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, shade, width * 2.2f);

@@ -4,9 +4,14 @@
 #include "ui/transform/gizmo.h"
 
 #include <imgui.h>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace blush {
+
+// The ends of a world-space segment on the screen, clipped at the near plane; nullopt if it is behind the viewer.
+std::optional<std::pair<ScreenPoint, ScreenPoint>> projected_line(const Projection& projection, const ImageRect& image, Vec3d a, Vec3d b);
 
 // Draws lines given in world coordinates, clipped at the near plane.
 struct WorldPen {

@@ -22,11 +22,12 @@ constexpr const char* measuring = "guide/display.html#measuring-the-image";
 constexpr const char* convergence = "guide/convergence.html";
 constexpr const char* chart = "guide/convergence.html#the-chart";
 constexpr const char* lab = "guide/convergence.html#roulette-lab-and-health";
+constexpr const char* paths = "guide/paths.html";
 constexpr const char* snapshots = "guide/snapshots.html#keep";
 constexpr const char* comparison = "guide/snapshots.html#compare";
 
-constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,    viewport,  status_bar, file_browser,
-                               docks,       light_kinds, light_units, light_table, light_mix, materials,  display,
-                               camera,      measuring,   convergence, chart,       lab,       snapshots,  comparison};
+constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,  viewport,   status_bar, file_browser, docks,
+                               light_kinds, light_units, light_table, light_mix, materials,  display,    camera,       measuring,
+                               convergence, chart,       lab,         snapshots, comparison, paths};
 
 } // namespace blush::guide_page

@@ -101,6 +101,7 @@ enum class Command {
     roulette,
     measure,
     meters,
+    paths,
     render_region,
     render_all,
     scopes,

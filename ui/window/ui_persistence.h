@@ -16,7 +16,7 @@
 // | convergence runs                                            | CSV, SVG or PNG, by its Export             | the panel's own     |
 // | import report, health, results of roulette lab and meters   | not saved: read again from the file, or    |                     |
 // |   measured                                                  |   measured again                           |                     |
-// | tool, drag, placing, light camera, dialogs,                 | not saved: temporary                       | Esc                 |
+// | tool, drag, placing, light camera, traced paths, dialogs,   | not saved: temporary                       | Esc                 |
 // |   comparison, pause, playback, text being typed,            |                                            |                     |
 // |   pixel popup, sheet of shortcuts, toasts                   |                                            |                     |
 #pragma once

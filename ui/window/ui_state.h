@@ -18,6 +18,7 @@
 #include "ui/views/light_mix_view.h"
 #include "ui/views/map_view.h"
 #include "ui/views/meters_view.h"
+#include "ui/views/paths_view.h"
 #include "ui/views/roulette_view.h"
 #include "ui/views/scopes_view.h"
 #include "ui/views/time_view.h"
@@ -52,6 +53,7 @@ enum class ViewTool {
     pick_color, // click: a colour field gets the pixel's colour
     region,     // drag: render region
     meter,      // click: places a light meter on a surface
+    paths,      // click or drag: shows the paths of a pixel or of a rectangle
 };
 // Start of a tool's drag in the image, (0, 0) top left, (1, 1) bottom right.
 struct ToolStart {
@@ -172,6 +174,7 @@ struct UiState {
     std::shared_ptr<const Difference> difference; // of the compared images, as last computed; null: none
     ScopesView scopes;
     MetersView meters;
+    PathsView paths;
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;

@@ -1,6 +1,7 @@
 // The report of `blush converge` as one self-contained HTML file.
 #include "app/commands/converge/report.h"
 
+#include "app/commands/base64.h"
 #include "core/text.h"
 #include "io/image/display_image.h"
 #include "io/image/image_io.h"
@@ -28,21 +29,6 @@ th:first-child,td:first-child{text-align:left} thead th{border-bottom:2px solid 
 svg{max-width:100%;height:auto} code{font-size:.9em;overflow-wrap:anywhere} dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem} dd{margin:0}
 @media print{body{margin:0;max-width:none;font-size:11pt} h2{break-after:avoid} figure,tr{break-inside:avoid}}
 )";
-
-std::string base64(std::span<const uint8_t> bytes) {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t word = uint32_t(bytes[i]) << 16;
-        if (i + 1 < bytes.size()) word |= uint32_t(bytes[i + 1]) << 8;
-        if (i + 2 < bytes.size()) word |= bytes[i + 2];
-        text += digits[word >> 18];
-        text += digits[word >> 12 & 63];
-        text += i + 1 < bytes.size() ? digits[word >> 6 & 63] : '=';
-        text += i + 2 < bytes.size() ? digits[word & 63] : '=';
-    }
-    return text;
-}
 
 // Averages square blocks of pixels, to at most the width of a thumbnail.
 RgbImage shrunk(const RgbImage& image) {

@@ -175,4 +175,8 @@ Id<Material> RenderScene::material_id(int32_t index) const {
     return index > 0 && size_t(index) <= materials_.ids.size() ? materials_.ids[size_t(index) - 1] : Id<Material>{};
 }
 
+Id<Node> RenderScene::light_node(int32_t record) const {
+    return record >= 0 && size_t(record) < lights_.nodes.size() ? lights_.nodes[size_t(record)] : Id<Node>{};
+}
+
 } // namespace blush

@@ -45,6 +45,8 @@ public:
     Features features() const { return features_; }
     // Material id of a table record; 0 for glTF's default material and for -1.
     Id<Material> material_id(int32_t index) const;
+    // Node of a record of the light table; 0 for the environment and for -1.
+    Id<Node> light_node(int32_t record) const;
     // Inverse of material_id(); 0 for an unknown id.
     int32_t material_index(Id<Material> id) const { return materials_.index_of(id); }
     // By part: 1 if the part is a shadow catcher (shadow_catcher.h); empty: no shadow catchers.

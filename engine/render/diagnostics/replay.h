@@ -13,13 +13,13 @@ namespace blush {
 
 // A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded. `past`:
 // of the background behind blended surfaces, one of which stopped the path. `chains`: of manifold sampling at this vertex, and of emission
-// that it shares (`shared`), which is not in `step`.
+// that it shares (`shared`), which is not in `step`. `panes`: emission of panes that the ray has passed.
 struct ReplayedVertex {
     int bounce = 0;
     Path<float> path;
     Hit<float> hit;
     Step<float> step;
-    Vec3 arrived, past{0, 0, 0}, shared{0, 0, 0}, chains{0, 0, 0};
+    Vec3 arrived, past{0, 0, 0}, shared{0, 0, 0}, chains{0, 0, 0}, panes{0, 0, 0};
 };
 
 // Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
@@ -33,11 +33,13 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
     generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
     if (samples_manifolds<s>(*context.scene)) scratch.manifolds = std::make_unique<ManifoldColumns>();
     for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
+        const Vec3d traced = radiance();
         trace_paths<s, float>(context, scratch, *now, *next, bounce);
         Path<float> path = load_path<s, float>(*now, 0);
         path.part = now->part[0];
         path.dispersed = now->dispersed[0];
         ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
+        vertex.panes = to_float(radiance() - traced);
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);
         const SeenBackground<float> background = seen_background<float>(*context.scene, scratch, 0, true);
         vertex.past = light_past_blended<s, float>(context, vertex.path, bounce, background);

@@ -17,8 +17,8 @@ namespace blush::test {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* shipped_scenes[] = {"bulb",       "card-and-mug", "cornell", "corridor",  "furnace",
-                                          "metal-ring", "pool",         "prism",   "veach-mis", "wine-glass"};
+constexpr const char* shipped_scenes[] = {"bulb", "card-and-mug", "cornell",     "corridor",  "furnace",   "metal-ring",
+                                          "pool", "prism",        "two-bounces", "veach-mis", "wine-glass"};
 
 inline std::filesystem::path shipped(const std::string& name) { return std::filesystem::path(BLUSH_ASSETS) / "scenes" / (name + ".gltf"); }
 

@@ -1,4 +1,5 @@
 // Inputs of a measurement that repeats in rounds.
+#include "tests/support/eventually.h"
 #include "ui/jobs/round_runner.h"
 
 #include <gtest/gtest.h>
@@ -46,6 +47,33 @@ TEST(RoundRunner, KeepsItsResultForAnInputThatIsTheSame) {
     runner.measure({7, 1, &compared});
     EXPECT_TRUE(runner.state().rests);
     EXPECT_EQ(runner.state().output, 7);
+}
+
+// A round that lasts until it is not wanted any more.
+struct EndlessWork {
+    struct Input {
+        int value;
+        bool has_same_result(const Input& other) const { return value == other.value; }
+    };
+    using Output = int;
+    void begin(const Input& input) { value_ = input.value; }
+    bool round(const std::function<bool()>& wanted) {
+        while (value_ == 1 && wanted()) std::this_thread::yield();
+        return value_ != 1;
+    }
+    Output output() const { return value_; }
+    static bool is_good(Output) { return true; }
+
+private:
+    int value_ = 0;
+};
+
+TEST(RoundRunner, CancelsARoundForAnotherInput) {
+    RoundRunner<EndlessWork> runner;
+    runner.measure({1});
+    runner.measure({2});
+    ASSERT_TRUE(test::eventually([&] { return runner.state().rests; }));
+    EXPECT_EQ(runner.state().output, 2);
 }
 
 } // namespace

@@ -358,8 +358,8 @@ TEST(Render, CtrlCSavesThePartialImage) {
 
 TEST(Render, EveryShippedSceneRenders) {
     const TemporaryFolder folder;
-    for (const char* scene :
-         {"bulb", "card-and-mug", "cornell", "corridor", "furnace", "metal-ring", "pool", "prism", "veach-mis", "wine-glass"}) {
+    for (const char* scene : {"bulb", "card-and-mug", "cornell", "corridor", "furnace", "metal-ring", "pool", "prism", "two-bounces",
+                              "veach-mis", "wine-glass"}) {
         const Json json = blush_json(with(tiny(scene, folder / "out.exr"), {"--quiet"}));
         ASSERT_TRUE(json.is_object()) << scene;
         EXPECT_EQ(json["health"]["nan"], 0) << scene;
