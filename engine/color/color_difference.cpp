@@ -87,6 +87,14 @@ double delta_e_2000(const Lab& x, const Lab& y) {
     return std::sqrt(std::max(0.0, tl * tl + tc * tc + th * th + rt * tc * th));
 }
 
+double white_for_grey(double luminance) { return luminance / std::pow((50 + 16) / 116.0, 3); }
+
+double hue_difference(const Vec3d& x, const Vec3d& y) {
+    const double at_x = luminance(x), at_y = luminance(y);
+    if (!(at_x > 0 && at_y > 0)) return 0;
+    return delta_e_2000(lab_of(x, white_for_grey(at_x)), lab_of(y, white_for_grey(at_y)));
+}
+
 std::string_view hue_towards(double du, double dv) {
     const UcsPoint white = ucs_of({1, 1, 1});
     const auto cosine = [&](const Hue& hue) {

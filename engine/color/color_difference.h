@@ -24,6 +24,12 @@ Lab lab_of(const Vec3d& rgb, double white);
 // Test Data, and Mathematical Observations", Color Research and Application 30(1), 2005. About 1 is just noticeable side by side.
 double delta_e_2000(const Lab& x, const Lab& y);
 
+// CIEDE2000 between two colours of linear Rec.709, both exposed to the luminance of L* = 50: what they differ by other than brightness. 0
+// if one is black.
+double hue_difference(const Vec3d& x, const Vec3d& y);
+// The luminance of a white against which this luminance has L* = 50.
+double white_for_grey(double luminance);
+
 // The colour towards which a step in the chromaticity diagram leads: that of the hues below whose direction from D65 is nearest. "red",
 // "orange", "yellow", "green", "cyan", "blue", "violet" or "magenta".
 std::string_view hue_towards(double du, double dv);

@@ -96,20 +96,14 @@ private:
     Vec3d part_mean_, whole_mean_;
 };
 
-// The whole has L* = 50 where it is this part of white (CIE 15:2004, 8.2.1.1).
-constexpr double grey_50 = (66.0 / 116) * (66.0 / 116) * (66.0 / 116);
-
 double step_u(const Vec3d& part, const Vec3d& whole) { return ucs_of(whole).u - ucs_of(whole - part).u; }
 double step_v(const Vec3d& part, const Vec3d& whole) { return ucs_of(whole).v - ucs_of(whole - part).v; }
 double step_length(const Vec3d& part, const Vec3d& whole) { return std::hypot(step_u(part, whole), step_v(part, whole)); }
 double difference(const Vec3d& part, const Vec3d& whole) {
-    const double white = luminance(whole) / grey_50;
+    const double white = white_for_grey(luminance(whole));
     return delta_e_2000(lab_of(whole - part, white), lab_of(whole, white));
 }
-double hue_difference(const Vec3d& part, const Vec3d& whole) {
-    const double rest = luminance(whole - part), white = luminance(whole) / grey_50;
-    return rest > 0 ? delta_e_2000(lab_of((whole - part) * (luminance(whole) / rest), white), lab_of(whole, white)) : 0;
-}
+double difference_of_hue(const Vec3d& part, const Vec3d& whole) { return hue_difference(whole - part, whole); }
 
 ColorShift shift_of(const BleedStatistics& s) {
     ColorShift shift;
@@ -121,7 +115,7 @@ ColorShift shift_of(const BleedStatistics& s) {
     shift.length.known = shift.length.known && shift.length.low > 0;
     shift.towards = hue_towards(shift.u.value, shift.v.value);
     shift.delta_e = s.of(difference);
-    shift.hue = s.of(hue_difference);
+    shift.hue = s.of(difference_of_hue);
     return shift;
 }
 
@@ -262,9 +256,10 @@ std::vector<BleedShare> BleedProbe::State::bounce_rows(const Series& s) const {
     for (size_t i = 0; i < bleed_bounces; ++i) {
         if (s.bounces[i].total() == 0) continue;
         const std::string name = i == 0                   ? "seen directly"
+                                 : i == 1                 ? "once"
+                                 : i == 2                 ? "twice"
                                  : i + 1 == bleed_bounces ? std::to_string(i) + " or more times"
-                                 : i == 1                 ? "scattered once"
-                                                          : "scattered " + std::to_string(i) + " times";
+                                                          : std::to_string(i) + " times";
         rows.push_back(share(s, name, s.bounces[i]));
     }
     return rows;

@@ -53,8 +53,7 @@ std::vector<std::string> limits_of(const BleedReport& report, const RenderSettin
     if (!report.missing_light.empty()) limits.push_back(report.missing_light);
     if (settings.caustics == CausticStrategy::automatic || settings.caustics == CausticStrategy::light_paths ||
         settings.caustics == CausticStrategy::manifold)
-        limits.push_back("The probe follows paths from the camera only: caustics that the image finds by light paths or manifold sampling "
-                         "take it longer, and those of lights without a size it does not find.");
+        limits.push_back("Caustics for which the image may use light paths or manifold sampling take the probe longer.");
     if (settings.clamp.limit > 0) limits.push_back("The image is clamped, the probe is not.");
     if (settings.max_bounces != unlimited_bounces)
         limits.push_back(fmt::format("Light that is scattered more than {} is left out, as in the image.",

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ public:
     // Batches [first, first + count) of a target, in order. Empty if `wanted` (called often, from many threads) returned false. The result
     // does not depend on the number of threads.
     std::vector<BleedSums> trace(const BleedTarget& target, int64_t first, int64_t count, const std::function<bool()>& wanted = {});
+    // Batch `batch` of each target.
+    std::vector<BleedSums> trace_each(std::span<const BleedTarget> targets, int64_t batch, const std::function<bool()>& wanted = {});
 
     // Of the last scene: the groups of its lights, one for each light and each emissive object; the origin of places; the message about
     // light that paths cannot find (missing_light.h), empty: none; whether anything emits light.
@@ -36,6 +39,9 @@ public:
     bool has_light() const { return compiled_.has_light(); }
 
 private:
+    std::vector<BleedSums> traced(int64_t count, const std::function<bool()>& wanted,
+                                  const std::function<BleedSums(const KernelContext&, int64_t i, TileScratch&)>& trace_one);
+
     Workers workers_;
     std::vector<std::unique_ptr<TileScratch>> scratch_; // by worker
     ExpandedMeshes meshes_;
