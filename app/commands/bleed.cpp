@@ -259,7 +259,7 @@ void print_report(const BleedReport& report, BleedTarget::Kind kind, const Rende
         if (row.by == SentBy::object && row.share.value >= 0.01) fmt::print("{}\n", sentence_of(row, kind));
     print_rows("Sent by", report.senders, kind, true);
     print_rows("From light", report.lights, kind, false);
-    print_rows("By bounce", report.bounces, kind, false);
+    print_rows("Scattered", report.bounces, kind, false);
     const std::vector<std::string> limits = limits_of(report, settings);
     if (!limits.empty()) fmt::print("\nNot included\n");
     for (const std::string& limit : limits) fmt::print("  {}\n", limit);

@@ -66,7 +66,7 @@ TEST(BleedCommand, DoesNotDependOnThreads) {
 TEST(BleedCommand, SaysItInPlainWords) {
     const Finished finished = blush({"bleed", scene_file("card-and-mug"), "--size", "64x36", "--pixel", "30,23"});
     EXPECT_EQ(finished.exit_code, 0);
-    for (const char* text : {"mug body adds ", "towards red.", "Sent by", "From light", "By bounce", "sun, direct", "Not included"})
+    for (const char* text : {"mug body adds ", "towards red.", "Sent by", "From light", "Scattered", "sun, direct", "Not included"})
         EXPECT_NE(finished.out.find(text), std::string::npos) << text << "\n" << finished.out;
 }
 
