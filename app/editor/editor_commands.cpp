@@ -208,6 +208,11 @@ void toggle_meters(PanelContext& c) {
     if (c.ui.meters.open && c.project().view.meters.empty()) c.ui.tool = ViewTool::meter;
 }
 
+void toggle_bleed(PanelContext& c) {
+    toggle_instrument(c, "bleed");
+    if (c.ui.bleed.open && !c.ui.bleed.has_place()) c.ui.tool = ViewTool::bleed;
+}
+
 void snapshots_beside_scene(PanelContext& c) {
     c.ui.settings.snapshot_folder.clear();
     c.ui.toasts.note("Snapshots go beside the scene again");
@@ -285,6 +290,7 @@ constexpr CommandAction command_actions[] = {
     {Command::render_all, [](PanelContext& c) { render_region(c, {}); }},
     {Command::measure, [](PanelContext& c) { c.ui.tool = ViewTool::measure; }},
     {Command::meters, toggle_meters},
+    {Command::bleed, toggle_bleed},
     {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
     {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
     {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},

@@ -95,6 +95,7 @@ constexpr Shortcut table[] = {
     {Command::toggle_denoise, "Look", "Raw / denoised", plain('N')},
     {Command::measure, "Look", "Measure a region", plain('M')},
     {Command::meters, "Look", "Light meters", shift('L')},
+    {Command::bleed, "Look", "Bleed", in_menu_only},
     {Command::scopes, "Look", "Scopes", shift('S')},
     {Command::guide, "Help", "Guide", in_menu_only},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},

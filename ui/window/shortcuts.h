@@ -101,6 +101,7 @@ enum class Command {
     roulette,
     measure,
     meters,
+    bleed,
     render_region,
     render_all,
     scopes,
