@@ -5,7 +5,7 @@
 #include "core/srgb.h"
 #include "scene/affine.h"
 #include "ui/snapshots/heat_map.h"
-#include "ui/snapshots/image_pixels.h"
+#include "ui/snapshots/light_piles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/aov_view.h"
 #include "ui/snapshots/heat_map.h"
+#include "ui/snapshots/light_piles.h"
 
 #include <algorithm>
 #include <array>
@@ -90,15 +91,6 @@ std::vector<float> two_piles_of(const Frame& frame, const std::array<float, 2>& 
 }
 
 } // namespace
-
-TwoPiles piles_of(const Frame& frame, size_t pixel) {
-    TwoPiles piles;
-    for (size_t k = 0; k < frame.bounces.size(); ++k) {
-        Vec3& pile = k < 2 ? piles.direct : piles.indirect;
-        pile = pile + frame.bounces[k][pixel];
-    }
-    return piles;
-}
 
 bool is_special(const Frame& frame, const ImageView& view) {
     switch (view.show) {

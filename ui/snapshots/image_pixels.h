@@ -10,13 +10,6 @@
 
 namespace blush {
 
-// The two piles of light of a pixel, from the bounce planes: direct light, which is seen directly or scattered once, and all other light.
-// Their sum is the pixel, up to the rounding of single precision.
-struct TwoPiles {
-    Vec3 direct{0, 0, 0}, indirect{0, 0, 0};
-};
-TwoPiles piles_of(const Frame& frame, size_t pixel);
-
 // True if the frame has the required planes and the view is not just the beauty.
 bool is_special(const Frame& frame, const ImageView& view);
 // width * height * 4 scene-linear values of a special view. Heat maps go from black over blue, red and yellow to white.

@@ -10,7 +10,9 @@
 #include "ui/panels/panels.h"
 #include "ui/snapshots/aov_view.h"
 #include "ui/snapshots/image_pixels.h"
+#include "ui/snapshots/light_piles.h"
 #include "ui/views/bleed_view.h"
+#include "ui/window/ui_persistence.h"
 
 #include <cmath>
 #include <fstream>
@@ -153,6 +155,13 @@ TEST_F(BleedPanel, FollowsThePlaceAndTheCameraOnlyWhereTheyMatter) {
     ui.bleed.quantity = BleedView::Quantity::leaving;
     EXPECT_FALSE(input(scene).has_same_result(input(moved)));
     EXPECT_TRUE(input(scene).has_same_result(input(scene)));
+}
+
+// A point is attached to a node, whose id means another one there.
+TEST_F(BleedPanel, ForgetsThePlaceInAnotherScene) {
+    ui.bleed.point = on_the_floor();
+    restore_scene_ui({}, "/another.gltf", floor_and_wall(), ui);
+    EXPECT_FALSE(ui.bleed.has_place());
 }
 
 // ---- the two piles, which the viewport shows
