@@ -1,4 +1,5 @@
 // Entry point. Exit codes: 0 done, 1 failed (one line on stderr), 2 bad usage.
+#include "app/commands/bleed.h"
 #include "app/commands/check.h"
 #include "app/commands/common.h"
 #include "app/commands/compare.h"
@@ -78,6 +79,7 @@ int run_command_line(int argc, char** argv) {
     add_merge_command(app, run);
     add_plan_command(app, run);
     add_paths_command(app, run);
+    add_bleed_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

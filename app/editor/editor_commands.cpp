@@ -213,6 +213,11 @@ void toggle_paths(PanelContext& c) {
     if (c.ui.paths.open && !c.ui.paths.request) c.ui.tool = ViewTool::paths;
 }
 
+void toggle_bleed(PanelContext& c) {
+    toggle_instrument(c, "bleed");
+    if (c.ui.bleed.open && !c.ui.bleed.has_place()) c.ui.tool = ViewTool::bleed;
+}
+
 void snapshots_beside_scene(PanelContext& c) {
     c.ui.settings.snapshot_folder.clear();
     c.ui.toasts.note("Snapshots go beside the scene again");
@@ -291,6 +296,7 @@ constexpr CommandAction command_actions[] = {
     {Command::measure, [](PanelContext& c) { c.ui.tool = ViewTool::measure; }},
     {Command::meters, toggle_meters},
     {Command::paths, toggle_paths},
+    {Command::bleed, toggle_bleed},
     {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
     {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
     {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},

@@ -29,6 +29,16 @@ void open_roulette(PanelContext& c, bool open) {
     if (!open) c.ui.roulette.runner.reset(); // it measures as long as the panel is open
 }
 
+void open_bleed(PanelContext& c, bool open) {
+    c.ui.bleed.open = open;
+    if (open) return;
+    // It measures as long as the panel is open.
+    c.ui.bleed.runner.reset();
+    c.ui.bleed.map_runner.reset();
+    c.ui.bleed.state = {};
+    c.ui.bleed.map_state = {};
+}
+
 constexpr DockSide right = DockSide::right, bottom = DockSide::bottom;
 
 const Instrument table[] = {
@@ -45,6 +55,8 @@ const Instrument table[] = {
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", guide_page::measuring, bottom, 36, 16, draw_meters_panel),
     by_flag<[](auto& ui) { return &ui.paths.open; }>("paths", "Paths", guide_page::paths, right, 26, 48, draw_paths_panel),
+    {"bleed", "Bleed", guide_page::bleed, right, 34, 40, true, [](const PanelContext& c) { return c.ui.bleed.open; }, open_bleed,
+     draw_bleed_panel},
     by_flag<[](auto& ui) { return &ui.show_history; }>("history", "History", guide_page::docks, right, 18, 22, draw_history),
     by_flag<[](auto& ui) { return &ui.import_report.open; }>("import_report", "Import report", guide_page::own_file, right, 34, 30,
                                                              draw_import_report, false),

@@ -181,6 +181,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::measure, c.frame != nullptr);
     item(c, Command::meters, true, nullptr, c.ui.meters.open);
     item(c, Command::paths, true, nullptr, c.ui.paths.open);
+    item(c, Command::bleed, true, nullptr, c.ui.bleed.open);
     item(c, Command::scopes, true, nullptr, c.ui.scopes.open);
     item(c, Command::light_mix, true, nullptr, c.ui.light_mix.open);
     item(c, Command::bounces, true, nullptr, c.ui.bounces.open);

@@ -44,6 +44,7 @@ void draw_comparison_panel(PanelContext& c);
 void draw_snapshot_panel(PanelContext& c); // name, note and file of one snapshot
 void draw_pixel_panel(PanelContext& c);
 void draw_meters_panel(PanelContext& c);
+void draw_bleed_panel(PanelContext& c);
 void draw_region_panel(PanelContext& c);
 void draw_paths_panel(PanelContext& c);
 void draw_scopes_panel(PanelContext& c);

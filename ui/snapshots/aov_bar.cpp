@@ -41,7 +41,7 @@ void draw_mark(PanelContext& c) {
 } // namespace
 
 void show_aov(PanelContext& c, const AovView& view) {
-    const bool lacks = view.show == ImageView::Show::bounces && c.frame && c.frame->bounces.empty();
+    const bool lacks = needs_bounces(view.show) && c.frame && c.frame->bounces.empty();
     const bool lacks_strategies = view.show == ImageView::Show::strategy && c.frame && c.frame->strategies.empty();
     c.ui.aov = view;
     c.ui.bounces.mode = BouncesView::Mode::image; // one of the two modes controls the viewport

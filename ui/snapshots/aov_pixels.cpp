@@ -1,8 +1,11 @@
 #include "ui/snapshots/aov_pixels.h"
 
+#include "color/color_difference.h"
 #include "core/math.h"
 #include "core/srgb.h"
+#include "scene/affine.h"
 #include "ui/snapshots/heat_map.h"
+#include "ui/snapshots/light_piles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +52,42 @@ Vec3 normal_color(const Vec3& n) { return n == Vec3{0, 0, 0} ? n : linear((n + V
 
 float error_share(float relative) { return std::log10(std::max(relative, 1e-12f) / min_error) / error_decades; }
 
+// Delta E at the upper end of the heat map, and the side of the blocks of pixels whose means are compared: of single pixels it is mostly
+// that of their noise.
+constexpr float most_bleed = 20;
+constexpr int bleed_block = 4;
+
+float indirect_share(const Frame& f, size_t i) {
+    const TwoPiles piles = piles_of(f, i);
+    const float whole = luminance(piles.direct + piles.indirect);
+    return whole > 0 ? luminance(piles.indirect) / whole : 0;
+}
+
+// By pixel: the hue difference of its block.
+std::vector<float> bleed_by_block(const Frame& f) {
+    std::vector<float> found(f.rgba.size() / 4);
+    for (int y = 0; y < f.height; y += bleed_block)
+        for (int x = 0; x < f.width; x += bleed_block) {
+            const int right = std::min(x + bleed_block, f.width), bottom = std::min(y + bleed_block, f.height);
+            Vec3 direct{0, 0, 0}, indirect{0, 0, 0};
+            const auto each = [&](const auto& visit) {
+                for (int v = y; v < bottom; ++v)
+                    for (int u = x; u < right; ++u) visit(size_t(v) * size_t(f.width) + size_t(u));
+            };
+            each([&](size_t i) {
+                const TwoPiles piles = piles_of(f, i);
+                direct = direct + piles.direct;
+                indirect = indirect + piles.indirect;
+            });
+            const float difference = float(hue_difference(to_double(direct), to_double(direct + indirect)));
+            each([&](size_t i) { found[i] = difference; });
+        }
+    return found;
+}
+
 struct Ranges {
     AovRange depth, samples;
+    std::vector<float> bleed = {};
 };
 
 Vec3 color_of(const Frame& f, Show show, const Ranges& ranges, size_t i) {
@@ -62,6 +99,8 @@ Vec3 color_of(const Frame& f, Show show, const Ranges& ranges, size_t i) {
     case Show::material_id: return id_color(f.material_id[i]);
     case Show::error: return heat_map_color(error_share(relative_error(f, i)));
     case Show::samples: return heat_map_color(ranges.samples.share(samples_of(f, i)));
+    case Show::indirect_share: return heat_map_color(indirect_share(f, i));
+    case Show::bleed: return heat_map_color(ranges.bleed[i] / most_bleed);
     default: return {0, 0, 0};
     }
 }
@@ -92,6 +131,7 @@ Vec3 group_pixel(const Frame& frame, size_t group, size_t pixel) {
 std::vector<float> aov_pixels(const Frame& frame, Show show) {
     Ranges ranges;
     if (show == Show::depth) ranges.depth = depth_range(frame);
+    if (show == Show::bleed) ranges.bleed = bleed_by_block(frame);
     if (show == Show::samples) ranges.samples = sample_range(frame);
     std::vector<float> rgba(frame.rgba.size(), 0.f);
     for (size_t i = 0; i < rgba.size() / 4; ++i) {
@@ -114,6 +154,8 @@ std::string aov_caption(const Frame& frame, Show show) {
     case Show::samples:
         return frame.pixel_samples.empty() ? fmt::format("Samples: {} in each pixel", frame.samples)
                                            : std::string("Samples: number per pixel");
+    case Show::indirect_share: return "Indirect share of the luminance";
+    case Show::bleed: return "Bleed: Delta E of direct and all light, by hue";
     default: return {};
     }
 }
@@ -125,6 +167,8 @@ std::optional<MapScale> map_scale(const Frame& frame, Show show) {
         const auto metres = [](float z) { return fmt::format("{:.3g} m", z); };
         return MapScale{"Depth", metres(r.low), metres((r.low + r.high) / 2), metres(r.high), grey};
     }
+    if (show == Show::indirect_share) return MapScale{"Indirect", "0 %", "50 %", "100 %", hot};
+    if (show == Show::bleed) return MapScale{"Delta E", "0", "10", "20", hot};
     if (show == Show::error) return MapScale{"Error", "0.1 %", "3.2 %", "100 %", hot};
     if (show == Show::samples) {
         const AovRange r = sample_range(frame);

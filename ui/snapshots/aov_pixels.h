@@ -1,4 +1,4 @@
-// Converts AOVs to colours: albedo, normal, depth, ids, error, samples.
+// Converts AOVs to colours: albedo, normal, depth, ids, error, samples, share of indirect light, bleed.
 #pragma once
 
 #include "render/frame.h"
@@ -27,7 +27,7 @@ struct MapScale {
     std::string title, low, middle, high;
     Vec3 (*color)(float t) = nullptr; // display-encoded
 };
-// For depth, error and samples; nullopt for other AOVs.
+// For depth and heat maps; nullopt for other AOVs.
 std::optional<MapScale> map_scale(const Frame& frame, ImageView::Show show);
 
 } // namespace blush

@@ -26,6 +26,10 @@ std::string strategy_name(FoundBy by) {
     return {};
 }
 
+bool needs_bounces(ImageView::Show show) {
+    return show == Show::bounces || show == Show::two_piles || show == Show::indirect_share || show == Show::bleed;
+}
+
 std::vector<AovEntry> aov_list(const Frame* frame) {
     std::vector<AovEntry> list{{{Show::beauty}, "Beauty"}, {{Show::albedo}, "Albedo"},     {{Show::normal}, "Normal"},
                                {{Show::depth}, "Depth"},   {{Show::object_id}, "Objects"}, {{Show::material_id}, "Materials"},
@@ -39,6 +43,9 @@ std::vector<AovEntry> aov_list(const Frame* frame) {
     const int bounces = has_bounces ? int(frame->bounces.size()) : default_bounce_planes;
     for (int k = 0; k < bounces; ++k)
         list.push_back({{Show::bounces, k}, bounce_name(k), has_bounces ? "" : "Needs bounce AOVs: the render restarts"});
+    for (const auto& [show, name] :
+         {std::pair{Show::two_piles, "Two piles"}, {Show::indirect_share, "Indirect share"}, {Show::bleed, "Bleed"}})
+        list.push_back({{show}, name, has_bounces ? "" : "Needs bounce AOVs: the render restarts"});
     for (int k = 0; k < found_by_count; ++k)
         list.push_back({{Show::strategy, k},
                         strategy_name(FoundBy(k)),
@@ -70,7 +77,7 @@ ImageView image_view(const AovView& view, int bounce_planes) {
 }
 
 PlaneSet planes_of(const AovView& view) {
-    return {.bounces = view.show == Show::bounces ? default_bounce_planes : 0,
+    return {.bounces = needs_bounces(view.show) ? default_bounce_planes : 0,
             .error = view.show == Show::error,
             .strategies = view.show == Show::strategy};
 }

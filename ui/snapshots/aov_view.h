@@ -23,11 +23,12 @@ struct AovEntry {
     std::string needs = {}; // why the AOV is not available yet; empty: it is available
     bool possible = true;   // false: only the user can provide the missing data
 };
-// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame, one per bounce and one per
-// strategy. With a null frame, the
-// list has no groups.
+// All AOVs: beauty, first-hit data, error, samples, one per light group of the frame, one per bounce, the two piles of
+// direct and indirect light, and one per strategy. With a null frame, the list has no groups.
 std::vector<AovEntry> aov_list(const Frame* frame);
 std::string strategy_name(FoundBy by);
+// True if it shows bounce planes, or is computed from them.
+bool needs_bounces(ImageView::Show show);
 // Its name in the list.
 std::string name_of(const AovView& view, const Frame* frame);
 // The entry `steps` further in the list, cyclically, skipping impossible ones.

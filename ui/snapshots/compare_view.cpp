@@ -21,18 +21,19 @@ std::shared_ptr<const Difference> compute_difference(const DifferenceInput& inpu
 
 ImageMix mix_of_side(const PanelContext& c, const ComparedSide& side) { return mix_of(c.ui.denoise, side.images.denoised != nullptr); }
 
-// The wipe bar, in its own window above the viewport. True while it is dragged.
-bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
+} // namespace
+
+bool drag_wipe(UiState& ui, const char* name, float x, const ImageRect& seen) {
     const float grab = std::max(8.f, ImGui::GetFontSize() * 0.8f);
     ImGui::SetNextWindowPos({x - grab / 2, seen.y});
     ImGui::SetNextWindowSize({grab, seen.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::Begin("wipe", nullptr,
+    ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::InvisibleButton("bar", {grab, seen.height});
-    ui.probe.record_last_item("Compare/Wipe");
+    ui.probe.record_last_item(name);
     const bool active = ImGui::IsItemActive();
     if (active || ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -44,8 +45,6 @@ bool drag_bar(UiState& ui, float x, const ImageRect& seen) {
     ImGui::PopStyleVar(2);
     return active;
 }
-
-} // namespace
 
 void name_image(const std::string& text, const ImageRect& seen) {
     const float em = ImGui::GetFontSize();
@@ -180,7 +179,8 @@ void CompareView::draw_wipe(PanelContext& c, const ComparedSide& a, const Compar
     if (b.id != live_image) draw_part(parts_[1], image, {x, seen.y, seen.x + seen.width - x, seen.height});
     left_name_ = a.label;
     right_name_ = b.label;
-    if (drag_bar(c.ui, x, seen)) compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
+    if (drag_wipe(c.ui, "Compare/Wipe", x, seen))
+        compare.wipe = std::clamp((ImGui::GetIO().MousePos.x - seen.x) / std::max(seen.width, 1.f), 0.f, 1.f);
 }
 
 void CompareView::draw(PanelContext& c, const ImageRect& image, const ImageRect& seen, const DisplayLook& look, const FrameBudget& pace) {

@@ -22,6 +22,10 @@ struct ComparedSide {
 // Null frames if there is no such image.
 ComparedSide compared_side(const PanelContext& c, uint64_t id);
 
+// A wipe bar at `x` over the visible part of the image, in a window of its own. True while it is dragged. `name`: unique, also in the
+// probe.
+bool drag_wipe(UiState& ui, const char* name, float x, const ImageRect& seen);
+
 // The name of the whole image, and those of both sides of a wipe.
 void name_image(const std::string& text, const ImageRect& seen);
 void name_sides(const std::string& a, const std::string& b, const ImageRect& seen);

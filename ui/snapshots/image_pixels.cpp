@@ -6,8 +6,11 @@
 #include "ui/snapshots/aov_pixels.h"
 #include "ui/snapshots/aov_view.h"
 #include "ui/snapshots/heat_map.h"
+#include "ui/snapshots/light_piles.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace blush {
@@ -73,6 +76,20 @@ std::vector<float> illuminance_of(const Frame& frame) {
     return rgba;
 }
 
+std::vector<float> two_piles_of(const Frame& frame, const std::array<float, 2>& wipes) {
+    std::vector<float> rgba(frame.rgba.size(), 1.f);
+    const int ends[] = {int(std::lround(wipes[0] * float(frame.width))), int(std::lround(wipes[1] * float(frame.width)))};
+    for (size_t i = 0; i < rgba.size() / 4; ++i) {
+        const int x = int(i % size_t(frame.width));
+        const TwoPiles piles = piles_of(frame, i);
+        const Vec3 c = x < ends[0] ? piles.direct : x < ends[1] ? piles.indirect : piles.direct + piles.indirect;
+        rgba[4 * i] = c.x;
+        rgba[4 * i + 1] = c.y;
+        rgba[4 * i + 2] = c.z;
+    }
+    return rgba;
+}
+
 } // namespace
 
 bool is_special(const Frame& frame, const ImageView& view) {
@@ -92,6 +109,9 @@ bool is_special(const Frame& frame, const ImageView& view) {
     case Show::samples: return frame.samples > 0;
     case Show::strategy: return view.strategy >= 0 && size_t(view.strategy) < frame.strategies.size();
     case Show::group: return view.group >= 0 && size_t(view.group) < frame.groups.size();
+    case Show::indirect_share:
+    case Show::bleed:
+    case Show::two_piles: return !frame.bounces.empty();
     }
     return false;
 }
@@ -99,6 +119,7 @@ bool is_special(const Frame& frame, const ImageView& view) {
 std::vector<float> pixels_of(const Frame& frame, const ImageView& view) {
     if (view.show == Show::illuminance) return illuminance_of(frame);
     if (is_data(view)) return aov_pixels(frame, view.show);
+    if (view.show == Show::two_piles) return two_piles_of(frame, view.wipes);
     std::vector<float> rgba(frame.rgba.size(), 1.f);
     const Range range = range_of(frame, view.show);
     for (size_t i = 0; i < rgba.size() / 4; ++i) {
@@ -135,6 +156,8 @@ std::string caption_of(const Frame& frame, const ImageView& view) {
         return fmt::format("{} only: not the whole image{}", strategy_name(FoundBy(view.strategy)),
                            is_mixed(frame.gains) ? ", without the light mix" : "");
     case Show::group: return fmt::format("Light group {} only: not the whole image", frame.group_names[size_t(view.group)]);
+    case Show::two_piles:
+        return std::string("Direct light, indirect light, and their sum") + (is_mixed(frame.gains) ? ", without the light mix" : "");
     default: return is_data(view) ? aov_caption(frame, view.show) : std::string();
     }
 }

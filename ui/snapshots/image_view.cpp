@@ -15,7 +15,9 @@ bool is_data(const ImageView& view) {
     case ImageView::Show::object_id:
     case ImageView::Show::material_id:
     case ImageView::Show::error:
-    case ImageView::Show::samples: return true;
+    case ImageView::Show::samples:
+    case ImageView::Show::indirect_share:
+    case ImageView::Show::bleed: return true;
     default: return false;
     }
 }

@@ -2,6 +2,7 @@
 // does not restart the render and is not saved.
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace blush {
@@ -19,15 +20,19 @@ struct ImageView {
         depth,
         object_id,
         material_id,
-        error,    // standard error of each pixel, relative to its value
-        samples,  // per pixel
-        group,    // a light group, in the current light mix
-        strategy, // light that one strategy has found
+        error,          // standard error of each pixel, relative to its value
+        samples,        // per pixel
+        group,          // a light group, in the current light mix
+        strategy,       // light that one strategy has found
+        indirect_share, // share of indirect light in the luminance
+        bleed,          // hue difference between direct light alone and all light
+        two_piles,      // direct, indirect and all light, each in its part of the image
     };
     Show show = Show::beauty;
     std::vector<float> gains = {}; // per bounce
     int group = 0;                 // index in the frame's light groups
     int strategy = 0;              // FoundBy
+    std::array<float, 2> wipes{};  // of the two piles: where the parts of direct and indirect light end, 0 .. 1 of the width
     bool operator==(const ImageView&) const = default;
 };
 

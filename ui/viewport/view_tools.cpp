@@ -21,6 +21,7 @@ const char* hint_of(ViewTool tool) {
     case ViewTool::pick_color: return "Click to pick a colour (scene-linear).  Esc: cancel";
     case ViewTool::meter: return "Click a surface to place a light meter.  Esc: cancel";
     case ViewTool::paths: return "Click a pixel, or drag a rectangle, to see its paths.  Esc: cancel";
+    case ViewTool::bleed: return "Click a surface, or drag a rectangle, to see who lights it.  Esc: cancel";
     case ViewTool::region: return "Drag a rectangle to render only this region.  Esc: cancel";
     case ViewTool::measure: return "Drag a rectangle to measure.  Esc: cancel";
     }
@@ -73,6 +74,26 @@ void take_region(PanelContext& c, const ImageRegion& region) {
     c.apply(SetView{v});
 }
 
+// A drag of a few pixels is a click.
+void probe_bleed(PanelContext& c, const Projection& projection, const ImageRect& image, const ImageRegion& region) {
+    constexpr float least = 4;
+    const ToolStart start = *std::exchange(c.ui.tool_start, std::nullopt);
+    c.ui.tool = ViewTool::none;
+    BleedView& view = c.ui.bleed;
+    if (region.width * image.width >= least && region.height * image.height >= least) {
+        view.rect = region;
+        view.point.reset();
+    } else {
+        const auto point = meter_at(*c.frame, c.scene(), projection, start.u, start.v, "");
+        if (!point) return c.ui.toasts.note("There is no surface at this point");
+        view.point = point;
+        view.rect.reset();
+    }
+    view.chosen = 0;
+    view.open = true;
+    c.ui.docks.to_front.insert("bleed");
+}
+
 } // namespace
 
 Vec3 picked_color(const Frame& frame, const DenoisedImage* denoised, const ImageMix& mix, double u, double v, int radius) {
@@ -122,6 +143,7 @@ bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& im
         case ViewTool::pick_white: pick_white(c, u, v); break;
         case ViewTool::pick_color: pick_color(c, u, v); break;
         case ViewTool::meter: place_meter(c, projection, u, v); break;
+        case ViewTool::bleed:
         case ViewTool::measure:
         case ViewTool::paths:
         case ViewTool::region: c.ui.tool_start = ToolStart{u, v}; break;
@@ -131,7 +153,11 @@ bool use_tool(PanelContext& c, const Projection& projection, const ImageRect& im
     if (!c.ui.tool_start) return true;
     const ImageRegion region = region_between(c.ui.tool_start->u, c.ui.tool_start->v, u, v);
     draw_rectangle(*ImGui::GetWindowDrawList(), image, region);
-    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) take_region(c, region);
+    if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return true;
+    if (c.ui.tool == ViewTool::bleed)
+        probe_bleed(c, projection, image, region);
+    else
+        take_region(c, region);
     return true;
 }
 

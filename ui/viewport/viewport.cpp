@@ -11,6 +11,7 @@
 #include "ui/lights/multi_edit_apply.h"
 #include "ui/snapshots/aov_bar.h"
 #include "ui/snapshots/image_pixels.h"
+#include "ui/viewport/bleed_marks.h"
 #include "ui/viewport/camera_frame_overlay.h"
 #include "ui/viewport/environment_dial.h"
 #include "ui/viewport/false_color_legend.h"
@@ -19,6 +20,7 @@
 #include "ui/viewport/path_lines.h"
 #include "ui/viewport/picking.h"
 #include "ui/viewport/pixel_grid.h"
+#include "ui/viewport/two_piles.h"
 #include "ui/viewport/view_tools.h"
 #include "ui/viewport/viewport_marks.h"
 #include "ui/widgets/elided_text.h"
@@ -409,6 +411,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     if (c.ui.settings.overlays) {
         draw_measured_region(draw, image, c.project().view);
         draw_meters(draw, image, projection, c.scene(), c.project().view, c.ui.meters);
+        draw_bleed(draw, image, projection, c.scene(), c.ui.bleed, c.render_width, c.render_height);
     }
     if (c.ui.paths.open) {
         draw.PushClipRect({seen.x, seen.y}, {seen.x + seen.width, seen.y + seen.height}, true);
@@ -418,6 +421,7 @@ ImageRect Viewport::draw(PanelContext& c, const FrameBudget& pace) {
     if (c.ui.pixel) draw_read_pixel(draw, image, c.ui.pixel->u, c.ui.pixel->v);
     draw_map_scale(draw, seen, *shown_frame_, uploaded_view_);
     draw_caption(c, seen);
+    if (uploaded_view_.show == ImageView::Show::two_piles && special) draw_two_piles(c, image, seen);
     // the hint of an active transform is at the toolbar's position
     if (c.ui.settings.overlays && !transformer_.is_active()) draw_aov_bar(c, seen);
     navigate(c, projection, image, hovered, taken);

@@ -25,7 +25,7 @@ void WorldPen::line(Vec3d a, Vec3d b) const {
     const auto& [sa, sb] = *ends;
     const float width = std::max(1.f, ImGui::GetFontSize() / 12) * weight;
     const ImU32 shade = IM_COL32(0, 0, 0, 110 * (color >> IM_COL32_A_SHIFT) / 255);
-    draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, shade, width * 2.2f);
+    draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, shade, width * edge);
     draw.AddLine({sa.x, sa.y}, {sb.x, sb.y}, color, width);
 }
 

@@ -19,7 +19,8 @@ struct WorldPen {
     const Projection& projection;
     const ImageRect& image;
     ImU32 color;
-    float weight = 1; // of the lines, relative to the default width
+    float weight = 1;  // of the lines, relative to the default width
+    float edge = 2.2f; // width of the dark line below, relative to the line
 
     void line(Vec3d a, Vec3d b) const;
     // An ellipse with these semi-axes.

@@ -1,8 +1,7 @@
 #include "ui/views/meters_view.h"
 
 #include "core/math.h"
-#include "render/compile/scene_origin.h"
-#include "scene/affine.h"
+#include "render/compile/surface_clearance.h"
 #include "scene/geometry/ray_queries.h"
 #include "ui/viewport/picking.h"
 
@@ -11,21 +10,6 @@
 #include <fmt/format.h>
 
 namespace blush {
-namespace {
-
-// Offset of a meter from its surface, in metres, for the renderer's single precision: hit points are off by at most 2^-21 of the
-// coordinates that they are computed from (render/integrator/surface.h); four times that.
-double clearance_of(const Scene& scene, const RayHit& hit) {
-    const Vec3d origin = render_origin(world_bounds(scene));
-    double largest = hit.largest_term;
-    for (const Vec3d& corner : hit.corners) {
-        const Vec3d p = corner - origin;
-        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    return largest * 0x1p-19;
-}
-
-} // namespace
 
 std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const Projection& projection, double u, double v,
                                    std::string name) {
@@ -39,7 +23,7 @@ std::optional<LightMeter> meter_at(const Frame& frame, const Scene& scene, const
     if (!hit || first_occluder(scene, ray.origin, hit->position, any)) hit = cast_ray(scene, ray.origin, ray.direction, any);
     if (!hit) return {};
     LightMeter meter = meter_on(scene, hit->node, hit->position, hit->normal, std::move(name));
-    meter.clearance = float(clearance_of(scene, *hit));
+    meter.clearance = float(surface_clearance(scene, *hit));
     return meter;
 }
 

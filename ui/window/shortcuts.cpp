@@ -96,6 +96,7 @@ constexpr Shortcut table[] = {
     {Command::measure, "Look", "Measure a region", plain('M')},
     {Command::meters, "Look", "Light meters", shift('L')},
     {Command::paths, "Look", "Paths of a pixel", shift('P')},
+    {Command::bleed, "Look", "Bleed", in_menu_only},
     {Command::scopes, "Look", "Scopes", shift('S')},
     {Command::guide, "Help", "Guide", in_menu_only},
     {Command::shortcuts, "Help", "Shortcuts", plain(key::f1)},

@@ -102,6 +102,7 @@ enum class Command {
     measure,
     meters,
     paths,
+    bleed,
     render_region,
     render_all,
     scopes,

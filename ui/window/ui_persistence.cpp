@@ -86,6 +86,9 @@ void restore_scene_ui(const WindowSettings& settings, const std::string& file, c
     ui.turned.clear();
     ui.light_mix.unfolded.clear();
     ui.light_mix.disabled_by_user = false;
+    ui.bleed.point.reset(); // of another scene
+    ui.bleed.rect.reset();
+    ui.bleed.chosen = 0;
     const auto found = std::ranges::find(settings.scenes, file, &SceneMemory::file);
     if (found == settings.scenes.end()) return;
     if (found->zoom > 0)

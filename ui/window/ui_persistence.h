@@ -14,10 +14,11 @@
 // |   outliner, unfolded group of the mix, snapshots            |                                            |   restore snapshot  |
 // |   in the strip, open instruments                            |                                            |                     |
 // | convergence runs                                            | CSV, SVG or PNG, by its Export             | the panel's own     |
-// | import report, health, results of roulette lab and meters   | not saved: read again from the file, or    |                     |
-// |   measured                                                  |   measured again                           |                     |
+// | import report, health, results of roulette lab, meters and  | not saved: read again from the file, or    |                     |
+// |   bleed probe                                               |   measured again                           |                     |
 // | tool, drag, placing, light camera, traced paths, dialogs,   | not saved: temporary                       | Esc                 |
-// |   comparison, pause, playback, text being typed,            |                                            |                     |
+// |   comparison, wipes of the two piles, place of the bleed    |                                            |                     |
+// |   probe, pause, playback, text being typed,                 |                                            |                     |
 // |   pixel popup, sheet of shortcuts, toasts                   |                                            |                     |
 #pragma once
 

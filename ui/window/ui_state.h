@@ -9,6 +9,7 @@
 #include "ui/transform/transform_view.h"
 #include "ui/viewport/camera_frame.h"
 #include "ui/viewport/image_zoom.h"
+#include "ui/views/bleed_view.h"
 #include "ui/views/bounces_view.h"
 #include "ui/views/convergence_view.h"
 #include "ui/views/denoise_view.h"
@@ -32,6 +33,7 @@
 #include "ui/window/toasts.h"
 #include "ui/window/window_settings.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -54,6 +56,7 @@ enum class ViewTool {
     region,     // drag: render region
     meter,      // click: places a light meter on a surface
     paths,      // click or drag: shows the paths of a pixel or of a rectangle
+    bleed,      // click or drag: the bleed probe measures this point or rectangle
 };
 // Start of a tool's drag in the image, (0, 0) top left, (1, 1) bottom right.
 struct ToolStart {
@@ -165,8 +168,10 @@ struct UiState {
     bool show_history = false;
     MenuBarView menu_bar;
     LightMixView light_mix;
+    BleedView bleed;
     BouncesView bounces;
-    AovView aov; // the AOV selected in the viewport's toolbar
+    AovView aov;                                      // the AOV selected in the viewport's toolbar
+    std::array<float, 2> two_piles{1 / 3.f, 2 / 3.f}; // the wipes of that AOV, in the image
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;
@@ -207,7 +212,10 @@ struct UiState {
         if (roulette.open && roulette.map == RouletteView::Map::path_length) return {ImageView::Show::path_length};
         if (roulette.open && roulette.map == RouletteView::Map::survival) return {ImageView::Show::survival};
         const ImageView by_panel = blush::image_view(bounces, bounce_planes);
-        return by_panel.show == ImageView::Show::beauty ? blush::image_view(aov, bounce_planes) : by_panel;
+        if (by_panel.show != ImageView::Show::beauty) return by_panel;
+        ImageView by_aov = blush::image_view(aov, bounce_planes);
+        if (by_aov.show == ImageView::Show::two_piles) by_aov.wipes = two_piles;
+        return by_aov;
     }
     // Film planes that open panels need, in addition to the default ones.
     PlaneSet wanted_planes() const {

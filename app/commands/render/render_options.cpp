@@ -90,7 +90,7 @@ Result<std::optional<DenoiseQuality>> parse_denoise(std::string_view text) {
     return std::optional(*quality);
 }
 
-void add_image_options(CLI::App& app, RenderOptions& o) {
+void add_size_option(CLI::App& app, RenderOptions& o) {
     app.add_option_function<std::string>(
            "--size",
            [&o](const std::string& text) {
@@ -105,8 +105,14 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
            },
            "Size in pixels; for Wx or xH the other side follows the camera's aspect ratio [1280 wide]")
         ->type_name("WxH");
+}
+
+void add_region_option(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--region", o.region, parse_region, "Render only these pixels; the rest of the image stays empty [all]")
         ->type_name("X,Y,W,H");
+}
+
+void add_scene_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--camera", o.overrides.camera, "Camera [the first; in a scene without cameras, one is framed around the scene]")
         ->type_name("NAME|INDEX");
     app.add_option("--aperture", o.overrides.aperture, "Radius of the thin lens in metres; 0 is a pinhole [the camera's]")->type_name("M");
@@ -126,11 +132,14 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
         ->type_name("MIB");
 }
 
-void add_light_options(CLI::App& app, RenderOptions& o) {
+void add_light_option(CLI::App& app, RenderOptions& o) {
     add_parsed(
         app, "--light", o.overrides.light, parse_light,
         "Lighting for a scene without lights: three softboxes and a studio panorama, or a sky, both for exposure 0 [none, with a warning]")
         ->type_name("studio|sky|none");
+}
+
+void add_groups_option(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--groups", o.overrides.groups, parse_grouping,
                "Light groups: which lights share a plane of the layer \"groups\" and a gain of the light mix [the scene's; by-light for "
                "that layer]")
@@ -162,10 +171,13 @@ void add_stop_options(CLI::App& app, RenderOptions& o) {
         ->type_name("A:B");
 }
 
-void add_integrator_options(CLI::App& app, RenderOptions& o) {
+void add_path_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--seed", o.settings.seed, "Random seed: same seed, same image [0]")->type_name("K");
     add_parsed(app, "--max-bounces", o.settings.max_bounces, parse_max_bounces, "Maximum number of scattering events of a path [unlimited]")
         ->type_name("N|unlimited");
+}
+
+void add_integrator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
                "Russian roulette: off, max, luminance, sqrt, constant=P, biased-cut=T [sqrt,start=3]")
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
@@ -222,11 +234,23 @@ void add_view_options(CLI::App& app, ViewSettings& view) {
     app.add_option("--display", view.display, "Display, only for display output [the config's default]")->type_name("NAME");
 }
 
-void add_render_options(CLI::App& app, RenderOptions& options) {
-    add_image_options(app, options);
+void add_probe_options(CLI::App& app, RenderOptions& options) {
+    add_size_option(app, options);
+    add_scene_options(app, options);
     add_scene_selection_options(app, options.overrides.scene_selection);
-    add_light_options(app, options);
+    add_light_option(app, options);
+    add_path_options(app, options);
+}
+
+void add_render_options(CLI::App& app, RenderOptions& options) {
+    add_size_option(app, options);
+    add_region_option(app, options);
+    add_scene_options(app, options);
+    add_scene_selection_options(app, options.overrides.scene_selection);
+    add_light_option(app, options);
+    add_groups_option(app, options);
     add_stop_options(app, options);
+    add_path_options(app, options);
     add_integrator_options(app, options);
     add_view_options(app, options.view);
     add_parsed(app, "--denoise", options.denoise, parse_denoise,

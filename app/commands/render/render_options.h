@@ -29,6 +29,8 @@ struct RenderOptions {
 
 // Invalid text ends parsing with CLI::ValidationError.
 void add_render_options(CLI::App& app, RenderOptions& options);
+// Those of them that say which image it is and what light it has: for commands that render no image but probe places of one.
+void add_probe_options(CLI::App& app, RenderOptions& options);
 // The display options among them: --exposure, --view, --look, --display etc.
 void add_view_options(CLI::App& app, ViewSettings& view);
 

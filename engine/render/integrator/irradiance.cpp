@@ -48,35 +48,42 @@ Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint
     const bool lit = !scene.links.lit_sets || !light.valid || is_lit<float>(scene.links, light.light, part, true);
     const float weight = nee_mis_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
     step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
+    step.light = light.light;
     step.connects = light.valid && lit && cosine > 0 && has_light<float>(step.direct);
     step.shadow = {receiver.position, wi};
     step.shadow_distance = light.infinite ? infinity : distance * (1.f - 4e-7f);
     return step;
 }
 
-Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
-    context.settings.reuse = {};
-    if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
-    samples = std::clamp(samples, 1, max_irradiance_samples);
+void begin_paths_at_meter(const KernelContext& context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
     const uint32_t key = pixel_key<float>(replicate, 0u, randomisation(context.seed, 0));
-    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
-    now->size = scratch.shadows.size = 0;
-    std::fill_n(scratch.r.data, samples, 0.0);
-    std::fill_n(scratch.g.data, samples, 0.0);
-    std::fill_n(scratch.b.data, samples, 0.0);
+    PathQueue& paths = scratch.paths[0];
+    paths.size = scratch.shadows.size = 0;
     const bool blends = context.scene->blends;
     for (int i = 0; i < samples; ++i) {
         const Sampler<float> sampler{key, uint32_t(i)};
-        now->part[now->size] = from_meter;
-        now->dispersed[now->size] = 0;
-        append<features, float>(*now, leave(receiver, sampler, i), true);
+        paths.part[paths.size] = from_meter;
+        paths.dispersed[paths.size] = 0;
+        append<features, float>(paths, leave(receiver, sampler, i), true);
         if (context.scene->lights.count == 0) continue;
         const Step<float> step = sample_light_at_meter(context, receiver, sampler, from_meter);
         if (!step.connects) continue;
         if (blends) scratch.shadows.random[scratch.shadows.size] = opacity_random<float>(key, uint32_t(i), 1);
         scratch.shadows.mask[scratch.shadows.size] = step.shadow_mask;
+        if (scratch.trials) record_trials<float>(scratch, step, true);
         append<float>(scratch.shadows, step, i, true);
     }
+}
+
+Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
+    context.settings.reuse = {};
+    if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
+    samples = std::clamp(samples, 1, max_irradiance_samples);
+    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
+    std::fill_n(scratch.r.data, samples, 0.0);
+    std::fill_n(scratch.g.data, samples, 0.0);
+    std::fill_n(scratch.b.data, samples, 0.0);
+    begin_paths_at_meter(context, receiver, replicate, samples, scratch);
     connect_paths<features, float>(context, scratch, 0);
     for (int bounce = 1; now->size > 0 && bounce <= max_path_length; ++bounce) {
         trace_paths<features, float>(context, scratch, *now, *next, bounce);

@@ -23,6 +23,11 @@ Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint
 
 constexpr int max_irradiance_samples = 1024; // per call
 
+// Puts `samples` paths, cosine-distributed around the normal, into scratch.paths[0], with slots from 0 on, and the shadow rays of NEE at
+// the receiver into scratch.shadows. Connect these at bounce 0; the paths go on with bounce 1. Light that they find times pi is
+// irradiance. `replicate` selects the random numbers.
+void begin_paths_at_meter(const KernelContext& context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
+
 // Mean of `samples` estimates of the irradiance, RGB in lux: NEE and cosine-distributed rays combined by MIS, as at the first
 // diffuse vertex of a path. `replicate` selects the random numbers: replicates are independent, samples of one are stratified
 // together. Light takes at most settings.max_bounces scatterings including the one of a diffuse surface here; at least one. Call

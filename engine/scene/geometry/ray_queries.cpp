@@ -131,6 +131,54 @@ TriangleHit nearest_hit(const Scene& scene, const Line& line, bool opaque_only, 
     return nearest;
 }
 
+// A triangle in world space.
+struct PlacedTriangle {
+    std::array<Vec3d, 3> corners;
+    double largest_term = 0; // as of RayHit
+};
+PlacedTriangle placed(const Geometry& g, size_t first_index, const Affined& m) {
+    PlacedTriangle triangle;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3d p = to_double(g.positions[g.indices[first_index + k]]);
+        triangle.corners[k] = transform_point(m, p);
+        for (const Vec3d& term : {m.x * p.x, m.y * p.y, m.z * p.z})
+            triangle.largest_term = std::max({triangle.largest_term, std::abs(term.x), std::abs(term.y), std::abs(term.z)});
+    }
+    return triangle;
+}
+
+// The point of a triangle nearest to p: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
+Vec3d nearest_point(const Vec3d& p, const std::array<Vec3d, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    const Vec3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);
+    if (d1 <= 0 && d2 <= 0) return a;
+    if (d3 >= 0 && d4 <= d3) return b;
+    if (d6 >= 0 && d5 <= d6) return c;
+    const double at_c = d1 * d4 - d3 * d2, at_b = d5 * d2 - d1 * d6, at_a = d3 * d6 - d5 * d4;
+    if (at_c <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+    if (at_b <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+    if (at_a <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    return a + (ab * at_b + ac * at_c) / (at_a + at_b + at_c);
+}
+
+// The triangle of a part nearest to a point.
+struct NearestTriangle {
+    double distance_squared = std::numeric_limits<double>::infinity();
+    PlacedTriangle triangle;
+    Vec3d position{0, 0, 0};
+    Id<Node> node;
+};
+void look_near(const Geometry& g, const Affined& world_from_part, const Vec3d& point, Id<Node> node, NearestTriangle& nearest) {
+    for (size_t i = 0; i + 2 < g.indices.size(); i += 3) {
+        const PlacedTriangle triangle = placed(g, i, world_from_part);
+        const Vec3d normal = cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
+        if (!(dot(normal, normal) > 0)) continue;
+        const Vec3d position = nearest_point(point, triangle.corners), to = position - point;
+        if (dot(to, to) < nearest.distance_squared) nearest = {dot(to, to), triangle, position, node};
+    }
+}
+
 } // namespace
 
 std::optional<Id<Node>> first_occluder(const Scene& scene, const Vec3d& from, const Vec3d& to,
@@ -148,19 +196,32 @@ std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Ve
                                const std::function<bool(Id<Node>)>& counts) {
     const TriangleHit hit = nearest_hit(scene, {origin, direction, 0, std::numeric_limits<double>::infinity()}, false, counts);
     if (!hit.geometry) return {};
-    std::array<Vec3d, 3> corners;
-    double largest = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const Vec3d p = to_double(hit.geometry->positions[hit.geometry->indices[hit.first_index + k]]);
-        const Affined& m = hit.world_from_mesh;
-        corners[k] = transform_point(m, p);
-        for (const Vec3d& term : {m.x * p.x, m.y * p.y, m.z * p.z})
-            largest = std::max({largest, std::abs(term.x), std::abs(term.y), std::abs(term.z)});
-    }
+    const PlacedTriangle triangle = placed(*hit.geometry, hit.first_index, hit.world_from_mesh);
+    const auto& corners = triangle.corners;
     const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(dot(normal, normal) > 0)) return {};
     const Vec3d unit_normal = normalize(normal) * (dot(normal, direction) > 0 ? -1.0 : 1.0);
-    return RayHit{hit.node, origin + direction * hit.t, unit_normal, corners, largest};
+    return RayHit{hit.node, origin + direction * hit.t, unit_normal, corners, triangle.largest_term};
+}
+
+std::optional<RayHit> nearest_surface(const Scene& scene, const Vec3d& point, const Vec3d& viewer) {
+    WorldTransforms transforms(scene);
+    NearestTriangle nearest;
+    for (const auto& [id, node] : scene.nodes) {
+        if (!node.mesh || !transforms(id).visible) continue;
+        const DeformedMesh mesh = deformed_mesh(scene, transforms, id, node);
+        for (const Geometry* g : parts_of(scene, mesh, false)) {
+            if (!node.instances) look_near(*g, mesh.world_from_mesh, point, id, nearest);
+            if (node.instances)
+                for (const Affine& place : node.instances->node_from_copy)
+                    look_near(*g, mesh.world_from_mesh * to_double(place), point, id, nearest);
+        }
+    }
+    if (!nearest.node) return {};
+    const auto& corners = nearest.triangle.corners;
+    const Vec3d normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const double side = dot(normal, viewer - nearest.position) < 0 ? -1.0 : 1.0;
+    return RayHit{nearest.node, nearest.position, normal * side, corners, nearest.triangle.largest_term};
 }
 
 } // namespace blush

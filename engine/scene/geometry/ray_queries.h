@@ -1,4 +1,4 @@
-// Single ray casts in double precision without a BVH: occlusion between two points, and picking.
+// Single ray casts in double precision without a BVH: occlusion between two points, picking, and the surface next to a point.
 #pragma once
 
 #include "scene/scene.h"
@@ -27,5 +27,8 @@ struct RayHit {
 };
 std::optional<RayHit> cast_ray(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
                                const std::function<bool(Id<Node>)>& counts);
+
+// The point of a visible surface nearest to `point`, of any material, with the normal on the side of `viewer`.
+std::optional<RayHit> nearest_surface(const Scene& scene, const Vec3d& point, const Vec3d& viewer);
 
 } // namespace blush
