@@ -6,6 +6,7 @@
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
 #include "app/commands/merge.h"
+#include "app/commands/plan/plan.h"
 #include "app/commands/render/render.h"
 #include "app/commands/render/render_options.h"
 #include "app/common/assets_dir.h"
@@ -64,6 +65,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App app("Blush: an interactive lighting editor for glTF scenes.\nWithout a command it opens the editor.", "blush");
     app.set_version_flag("--version", std::string("blush " BLUSH_VERSION));
     app.set_help_flag("--help,-h", "Print this help");
+    app.require_subcommand(0, 1); // a word after a command is its argument, even if it is the name of another: blush plan merge
     std::function<int()> run;
     add_editor(app, run);
     add_render_command(app, run);
@@ -73,6 +75,7 @@ int run_command_line(int argc, char** argv) {
     add_info_command(app, run);
     add_denoise_command(app, run);
     add_merge_command(app, run);
+    add_plan_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version

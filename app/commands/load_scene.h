@@ -19,6 +19,11 @@ struct LoadedScene {
     float camera_aspect = 0;
 };
 
+// The steps of load_scene(), for several sets of overrides of one file. Errors name the file.
+Result<ImportedScene> import_scene(const std::filesystem::path& file, std::optional<int64_t> texture_mib, Progress& progress,
+                                   const std::atomic<bool>& interrupted);
+Result<LoadedScene> overridden(ImportedScene imported, const std::filesystem::path& file, const SceneOverrides& overrides, float aspect);
+
 // Errors name the file.
 Result<LoadedScene> load_scene(const std::filesystem::path& file, const SceneOverrides& overrides, float aspect, Progress& progress,
                                const std::atomic<bool>& interrupted);

@@ -9,13 +9,14 @@
 #include "app/commands/render/command_feature_report.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/frame_json.h"
+#include "app/commands/render/image_metadata.h"
+#include "app/commands/render/peak_memory.h"
 #include "app/commands/render/render_loop.h"
 #include "app/commands/render/render_options.h"
 #include "app/commands/render/resume_image.h"
 #include "app/commands/render/write_image.h"
 #include "app/common/assets_dir.h"
 #include "core/text.h"
-#include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
 #include "render/film/coverage.h"
 #include "render/session/denoised_image.h"
@@ -25,8 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -123,15 +122,6 @@ bool sees_nothing(const Scene& scene, const RenderSettings& settings, const RayC
     return std::ranges::none_of(frame.depth, [](float depth) { return depth > 0; });
 }
 
-// Of this program alone: ru_maxrss starts with what the process held that started it. 0 without /proc.
-double peak_memory_mb() {
-    constexpr std::string_view key = "VmHWM:"; // kB
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with(key)) return std::strtod(line.c_str() + key.size(), nullptr) / 1024;
-    return 0;
-}
-
 std::string loop_note(const LoopProgress& p) {
     std::string note = fmt::format("{} spp", p.samples);
     if (p.error.known) note += fmt::format(", error {:.2g}", p.error.relmse);
@@ -139,22 +129,8 @@ std::string loop_note(const LoopProgress& p) {
 }
 
 SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const Rendered& rendered) {
-    const LoopResult& result = rendered.loop;
-    SnapshotMetadata m;
-    m.version = BLUSH_VERSION;
-    m.scene = std::filesystem::path(c.scene).filename().string();
-    m.scene_hash = scene_hash(loaded.imported);
-    m.camera = camera_name(loaded.scene);
-    m.spp = result.samples;
-    m.first_sample = plan.settings.first_sample;
-    m.last_sample = plan.settings.first_sample + result.samples;
-    m.seed = plan.settings.seed;
-    m.seconds = result.seconds;
-    m.error = error_text(result.frame.error);
+    SnapshotMetadata m = image_metadata(c.scene, scene_hash(loaded.imported), loaded, plan.settings, rendered.loop);
     if (rendered.denoised) m.denoised = denoised_by(*rendered.denoised);
-    m.settings = plan.settings;
-    m.edits = edits_json(loaded.imported, loaded.scene);
-    m.partial = !result.complete;
     if (rendered.film) m.film = film_json(*rendered.film);
     return m;
 }

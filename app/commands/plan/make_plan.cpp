@@ -1,0 +1,234 @@
+#include "app/commands/plan/make_plan.h"
+
+#include "app/commands/common.h"
+#include "app/commands/plan/pilot.h"
+#include "app/commands/progress.h"
+#include "app/commands/render/layers.h"
+#include "io/project/json_fields.h"
+#include "io/project/scene_edits_json.h"
+#include "io/project/scene_hash.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+namespace blush {
+namespace {
+
+// Where an error must be reached, but no number of samples is given.
+constexpr int64_t default_limit = 65536;
+
+struct ReadScene {
+    ImportedScene imported;
+    double seconds = 0;
+};
+
+Result<ReadScene> read_scene(const std::filesystem::path& file, RenderPlan& plan, const RenderRun& run,
+                             const std::atomic<bool>& interrupted) {
+    const auto begun = std::chrono::steady_clock::now();
+    Progress progress(run.quiet);
+    Result<ImportedScene> imported = import_scene(file, plan.texture_mib, progress, interrupted);
+    if (!imported) return imported.error();
+    std::error_code code;
+    const std::filesystem::path real = std::filesystem::canonical(file, code);
+    plan.scenes.push_back({(code ? std::filesystem::absolute(file) : real).string(), scene_hash(imported->scene)});
+    return ReadScene{*std::move(imported), std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count()};
+}
+
+// The recipe of an edited scene. Errors: it cannot be restored from text.
+Result<PlanLook> recipe_of(const std::string& name, const RenderPlan& plan, const LoadedScene& loaded, RenderSettings settings) {
+    PlanLook look{.name = name, .scene = plan.scenes.size() - 1};
+    const std::filesystem::path folder = std::filesystem::path(plan.scenes.back().file).parent_path();
+    const std::string edits = edits_json(loaded.imported, loaded.scene);
+    if (count_left_out(edits) > 0) return Error{.file = name, .what = "its edits cannot be stored as text: save the scene as a file first"};
+    if (!edits.empty()) {
+        look.edits = json_text(Json::parse(edits, nullptr, false));
+        const Result<Scene> restored = apply_edits_json(loaded.imported, look.edits, folder);
+        if (!restored) return in_file(restored.error(), name);
+        if (edits_json(loaded.imported, *restored) != edits) return Error{.file = name, .what = "its edits cannot be restored from text"};
+    }
+    look.lights_hash = lights_hash(loaded.scene);
+    settings.spp = settings.first_sample = 0;
+    settings.seconds = settings.error = 0;
+    settings.adaptive = false;
+    look.settings = settings;
+    return look;
+}
+
+// Groups for the layer, as `blush render` makes them.
+void provide_groups(const RenderPlan& plan, Scene& scene) {
+    if (parse_layers(plan.layers)->groups && scene.mix.grouping == LightMix::Grouping::none)
+        scene.mix.grouping = LightMix::Grouping::by_light;
+}
+
+Result<PlanLook> resolve_look(const LookRequest& request, const RenderPlan& plan, const ReadScene& scene) {
+    const std::filesystem::path file(plan.scenes.back().file);
+    Result<RenderOptions> options = options_of(request.words, {});
+    if (!options) return in_file(options.error(), request.name);
+    Result<RenderSettings> settings = settings_of(*options);
+    if (!settings) return in_file(settings.error(), request.name);
+    const float aspect = float(settings->width) / float(settings->height);
+    Result<LoadedScene> loaded = overridden(scene.imported, file, options->overrides, aspect);
+    if (!loaded) return loaded.error();
+    if (loaded->camera_aspect > 0 && !(options->width_given && options->height_given)) {
+        follow_aspect(*options, loaded->camera_aspect);
+        if (settings = settings_of(*options); !settings) return in_file(settings.error(), request.name);
+    }
+    for (const std::string& edits : request.edits) {
+        Result<Scene> edited = apply_edits_json(loaded->scene, edits, file.parent_path());
+        if (!edited) return in_file(edited.error(), request.name);
+        loaded->scene = *std::move(edited);
+    }
+    if (request.turn) loaded->scene.view = turned(loaded->scene.view, world_bounds(loaded->scene), *request.turn);
+    provide_groups(plan, loaded->scene);
+    Result<PlanLook> look = recipe_of(request.name, plan, *loaded, *settings);
+    if (!look) return look.error();
+    look->words = request.words;
+    look->sequence = request.sequence;
+    if (request.turn) look->words["turn"] = fmt::format("{:.6g}", *request.turn);
+    return look;
+}
+
+Result<std::vector<Axis>> axes_of(const PlanInput& input, const Scene& scene) {
+    std::vector<Axis> axes;
+    if (!input.looks.empty()) {
+        Result<std::vector<Axis>> read = read_looks(input.looks);
+        if (!read) return read.error();
+        axes = *std::move(read);
+    }
+    const auto add = [&](Result<Axis> axis) -> Result<void> {
+        if (!axis) return axis.error();
+        axes.push_back(*std::move(axis));
+        return {};
+    };
+    if (!input.cameras.empty())
+        if (const Result<void> added = add(camera_axis(scene, input.cameras)); !added) return added.error();
+    if (!input.variants.empty())
+        if (const Result<void> added = add(variant_axis(scene, input.variants)); !added) return added.error();
+    if (!input.frames.empty())
+        if (const Result<void> added = add(frame_axis(input.frames, input.frames_per_second, input.words)); !added) return added.error();
+    if (input.turntable > 0) axes.push_back(turntable_axis(input.turntable));
+    return axes;
+}
+
+// Renders the first look of a scene for a while, as the worst of all scenes counts.
+Result<void> measure_first(const PlanInput& input, RenderPlan& plan, size_t first_look, const ReadScene& scene, const RenderRun& run,
+                           const std::atomic<bool>& interrupted) {
+    const PlanLook& look = plan.looks[first_look];
+    LoadedScene loaded{scene.imported.scene, scene.imported.scene, scene.imported.report, 0};
+    if (!look.edits.empty())
+        loaded.scene = *apply_edits_json(loaded.imported, look.edits, std::filesystem::path(plan.scenes.back().file).parent_path());
+    const Result<MeasuredCosts> costs = measure_costs(plan, look, loaded, scene.seconds, input.folder / "pilot.exr", run, interrupted);
+    if (!costs) return costs.error();
+    plan.costs = worst_of(plan.costs, *costs);
+    return {};
+}
+
+Result<void> add_scene(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
+                       const std::atomic<bool>& interrupted) {
+    const Result<ReadScene> scene = read_scene(file, plan, run, interrupted);
+    if (!scene) return scene.error();
+    const Result<std::vector<Axis>> axes = axes_of(input, scene->imported.scene);
+    if (!axes) return in_file(axes.error(), file);
+    const Result<std::vector<LookRequest>> requests = combinations(std::filesystem::path(file).stem().string(), input.words, *axes);
+    if (!requests) return requests.error();
+    const size_t first_look = plan.looks.size();
+    for (const LookRequest& request : *requests) {
+        Result<PlanLook> look = resolve_look(request, plan, *scene);
+        if (!look) return look.error();
+        plan.looks.push_back(*std::move(look));
+        if (interrupted) return Error{.file = file, .what = "interrupted"};
+    }
+    return measure_first(input, plan, first_look, *scene, run, interrupted);
+}
+
+// A snapshot is a look as it is; only the size may be given anew.
+Result<void> add_snapshot(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
+                          const std::atomic<bool>& interrupted) {
+    const Result<std::map<std::string, std::string>> texts = read_metadata(file);
+    if (!texts) return texts.error();
+    const Result<SnapshotMetadata> m = read_snapshot_metadata(*texts);
+    if (!m) return in_file(m.error(), file);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    std::vector<std::filesystem::path> candidates{folder / m->scene_file, folder / std::filesystem::path(m->scene).filename()};
+    for (const std::string& scene : input.scenes) candidates.emplace_back(scene);
+    std::error_code code;
+    for (const std::filesystem::path& candidate : candidates) {
+        if (candidate.filename() != std::filesystem::path(m->scene).filename() || !std::filesystem::is_regular_file(candidate, code))
+            continue;
+        const Result<ReadScene> scene = read_scene(candidate, plan, run, interrupted);
+        if (!scene) return scene.error();
+        if (plan.scenes.back().hash != m->scene_hash)
+            return Error{.file = file, .what = fmt::format("was made from another version of {}", candidate.string())};
+        Result<Scene> edited = m->edits.empty() ? Result<Scene>(scene->imported.scene)
+                                                : apply_edits_json(scene->imported.scene, m->edits, candidate.parent_path());
+        if (!edited) return in_file(edited.error(), file);
+        LoadedScene loaded{scene->imported.scene, *std::move(edited), scene->imported.report, 0};
+        provide_groups(plan, loaded.scene);
+        RenderSettings settings = m->settings;
+        if (input.options.width_given) settings.width = input.options.settings.width;
+        if (input.options.height_given) settings.height = input.options.settings.height;
+        Result<PlanLook> look = recipe_of(m->name.empty() ? std::filesystem::path(file).stem().string() : m->name, plan, loaded, settings);
+        if (!look) return in_file(look.error(), file);
+        look->words["snapshot"] = std::filesystem::path(file).filename().string();
+        plan.looks.push_back(*std::move(look));
+        return measure_first(input, plan, plan.looks.size() - 1, *scene, run, interrupted);
+    }
+    return Error{.file = file, .what = fmt::format("its scene {} was not found beside it nor among the scenes of the plan", m->scene)};
+}
+
+// Safe for files, and different from each other: frames of one sequence stay together.
+void give_safe_names(std::vector<PlanLook>& looks) {
+    std::set<std::string> taken;
+    for (PlanLook& look : looks) {
+        const std::string frame = look.sequence.empty() ? "" : look.name.substr(look.sequence.size());
+        const std::string stem = name_of_look(look.sequence.empty() ? look.name : look.sequence);
+        std::string unique = stem;
+        for (int i = 2; !taken.insert(unique + frame).second; ++i) unique = fmt::format("{}-{}", stem, i);
+        look.name = unique + frame;
+        if (!look.sequence.empty()) look.sequence = unique;
+    }
+}
+
+} // namespace
+
+Result<RenderPlan> make_plan(const PlanInput& input, const RenderRun& run, const std::atomic<bool>& interrupted) {
+    RenderPlan plan;
+    plan.version = BLUSH_VERSION;
+    plan.program = input.program;
+    plan.layers = input.layers;
+    plan.texture_mib = input.options.overrides.texture_mib;
+    plan.error = input.options.settings.error;
+    plan.spp = plan.error > 0 && !input.options.spp_given ? default_limit : input.options.settings.spp;
+    plan.frames_per_second = input.frames_per_second;
+    plan.view = input.options.view;
+    for (const std::string& file : input.scenes)
+        if (const Result<void> added = add_scene(input, file, plan, run, interrupted); !added) return added.error();
+    for (const std::string& file : input.snapshots)
+        if (const Result<void> added = add_snapshot(input, file, plan, run, interrupted); !added) return added.error();
+    give_safe_names(plan.looks);
+    plan.chunk = input.chunk ? *input.chunk : choose_chunk(plan.costs, int64_t(plan.looks.size()), plan.spp);
+    std::vector<LookSamples> wanted;
+    // Where an error is to be reached, the first round is one chunk.
+    for (size_t i = 0; i < plan.looks.size(); ++i) wanted.push_back({i, {0, plan.error > 0 ? std::min(plan.chunk, plan.spp) : plan.spp}});
+    add_tasks(plan, wanted);
+    return plan;
+}
+
+void add_tasks(RenderPlan& plan, const std::vector<LookSamples>& wanted) {
+    std::vector<LookSamples> left = wanted;
+    for (bool more = true; more;) {
+        more = false;
+        for (LookSamples& look : left) {
+            if (look.samples.first >= look.samples.last) continue;
+            const int64_t end = std::min(look.samples.last, (look.samples.first / plan.chunk + 1) * plan.chunk);
+            plan.tasks.push_back({look.look, {look.samples.first, end}});
+            look.samples.first = end;
+            more = more || end < look.samples.last;
+        }
+    }
+}
+
+} // namespace blush
