@@ -239,6 +239,22 @@ TEST(Plan, UsageErrorsExitWithTwo) {
     refused({scene, "-o", output, "--quiet", "--looks", folder / "none.json"}, 1, "none.json");
 }
 
+TEST(Plan, StatusIsABarWithALinePerLook) {
+    const TemporaryFolder folder;
+    const SmallPlan plan{.scene = scene_file("cornell"), .folder = folder / "plan"};
+    plan.make();
+    expect_done(plan.task(1));
+    const std::string begun = expect_done({"plan", "status", plan.folder}).out;
+    EXPECT_NE(begun.find("[#####---------------]  25 %  1 of 4 tasks, 0 running"), std::string::npos) << begun;
+    EXPECT_NE(begun.find(" left for one worker"), std::string::npos) << begun;
+    EXPECT_NE(begun.find("16 of 64 samples\n"), std::string::npos) << begun;
+    run_all(plan);
+    const std::string done = expect_done({"plan", "status", plan.folder, "--watch"}).out; // ends, since all is done
+    EXPECT_NE(done.find("[####################] 100 %  4 of 4 tasks, 0 running"), std::string::npos) << done;
+    EXPECT_NE(done.find("64 of 64 samples, merged to 64, error "), std::string::npos) << done;
+    EXPECT_EQ(done.find(" left "), std::string::npos) << done;
+}
+
 TEST(Plan, MergeKnowsItsLooks) {
     const TemporaryFolder folder;
     const SmallPlan plan{.scene = scene_file("cornell"), .folder = folder / "plan"};
