@@ -69,13 +69,19 @@ Result<void> write_png_sheet(const std::filesystem::path& file, const std::vecto
     return write_display_image(file, sheet.width, sheet.height, sheet.rgb);
 }
 
-std::string html_sheet(const RenderPlan& plan, const std::vector<LookProgress>& progress) {
+// Not if the look has been merged again since, by a round.
+bool has_display(const std::filesystem::path& folder, const PlanLook& look) {
+    std::error_code code;
+    return std::filesystem::exists(display_file(folder, look), code);
+}
+
+std::string html_sheet(const std::filesystem::path& folder, const RenderPlan& plan, const std::vector<LookProgress>& progress) {
     std::string html = "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<title>Contact sheet</title>\n"
                        "<style>body{background:#1f1f1f;color:#ddd;font:14px sans-serif}figure{display:inline-block;width:320px;margin:8px;"
                        "vertical-align:top}img{width:320px}figcaption{overflow-wrap:anywhere}small{color:#999}</style>\n";
     for (size_t i = 0; i < plan.looks.size(); ++i) {
         const PlanLook& look = plan.looks[i];
-        if (progress[i].merged_samples == 0) continue;
+        if (!has_display(folder, look)) continue;
         std::string words;
         for (const auto& [name, value] : look.words) words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, value);
         html += fmt::format("<figure><a href=\"merged/{0}.exr\"><img src=\"merged/{0}.png\" alt=\"{0}\"></a><figcaption>{0}<br><small>{1} "
@@ -87,10 +93,6 @@ std::string html_sheet(const RenderPlan& plan, const std::vector<LookProgress>& 
 }
 
 } // namespace
-
-std::filesystem::path display_file(const std::filesystem::path& folder, const PlanLook& look) {
-    return merged_file(folder, look).replace_extension(".png");
-}
 
 Result<void> write_display(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look,
                            const ColorManagement& color) {
@@ -113,14 +115,14 @@ Result<void> write_display(const std::filesystem::path& folder, const RenderPlan
 Result<void> write_contact_sheet(const std::filesystem::path& folder, const RenderPlan& plan, const std::vector<LookProgress>& progress) {
     std::vector<ImagePtr> tiles;
     for (size_t i = 0; i < plan.looks.size() && tiles.size() < most_tiles; ++i) {
-        if (progress[i].merged_samples == 0) continue;
+        if (!has_display(folder, plan.looks[i])) continue;
         Result<ImagePtr> tile = small_image(display_file(folder, plan.looks[i]));
         if (!tile) return tile.error();
         tiles.push_back(*std::move(tile));
     }
     if (tiles.empty()) return {};
     if (const Result<void> written = write_png_sheet(folder / "contact-sheet.png", tiles); !written) return written;
-    return write_file(folder / "contact-sheet.html", html_sheet(plan, progress));
+    return write_file(folder / "contact-sheet.html", html_sheet(folder, plan, progress));
 }
 
 } // namespace blush

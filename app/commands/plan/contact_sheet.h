@@ -6,8 +6,7 @@
 
 namespace blush {
 
-// MERGED/LOOK.png: the merged image through the plan's view.
-std::filesystem::path display_file(const std::filesystem::path& folder, const PlanLook& look);
+// Writes display_file(): the merged image through the plan's view.
 Result<void> write_display(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look, const ColorManagement& color);
 
 // contact-sheet.png with at most 400 of the merged looks, small, row by row; contact-sheet.html with all, their names, settings and

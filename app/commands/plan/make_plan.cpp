@@ -1,9 +1,11 @@
 #include "app/commands/plan/make_plan.h"
 
 #include "app/commands/common.h"
+#include "app/commands/plan/gather.h"
 #include "app/commands/plan/pilot.h"
 #include "app/commands/progress.h"
 #include "app/commands/render/layers.h"
+#include "io/image/snapshot.h"
 #include "io/project/json_fields.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
@@ -22,25 +24,46 @@ constexpr int64_t default_limit = 65536;
 
 struct ReadScene {
     ImportedScene imported;
+    std::filesystem::path file; // absolute
     double seconds = 0;
 };
 
-Result<ReadScene> read_scene(const std::filesystem::path& file, RenderPlan& plan, const RenderRun& run,
-                             const std::atomic<bool>& interrupted) {
+Result<ReadScene> read_once(const std::filesystem::path& file, const RenderPlan& plan, const RenderRun& run,
+                            const std::atomic<bool>& interrupted) {
     const auto begun = std::chrono::steady_clock::now();
     Progress progress(run.quiet);
     Result<ImportedScene> imported = import_scene(file, plan.texture_mib, progress, interrupted);
     if (!imported) return imported.error();
     std::error_code code;
     const std::filesystem::path real = std::filesystem::canonical(file, code);
-    plan.scenes.push_back({(code ? std::filesystem::absolute(file) : real).string(), scene_hash(imported->scene)});
-    return ReadScene{*std::move(imported), std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count()};
+    return ReadScene{*std::move(imported), code ? std::filesystem::absolute(file) : real,
+                     std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count()};
 }
 
-// The recipe of an edited scene. Errors: it cannot be restored from text.
-Result<PlanLook> recipe_of(const std::string& name, const RenderPlan& plan, const LoadedScene& loaded, RenderSettings settings) {
+// Adds the scene to the plan: by its path, or as a copy that is the same.
+Result<ReadScene> read_scene(const PlanInput& input, const std::filesystem::path& file, RenderPlan& plan, const RenderRun& run,
+                             const std::atomic<bool>& interrupted) {
+    Result<ReadScene> scene = read_once(file, plan, run, interrupted);
+    if (!scene) return scene.error();
+    const std::string hash = scene_hash(scene->imported.scene);
+    std::string name = scene->file.string();
+    if (input.gather) {
+        const std::filesystem::path inside = std::filesystem::path("scenes") / std::to_string(plan.scenes.size() + 1);
+        const Result<std::filesystem::path> copy = gather_scene(scene->file, *scene->imported.origin.json, input.folder / inside);
+        if (!copy) return copy.error();
+        if (scene = read_once(*copy, plan, run, interrupted); !scene) return scene.error();
+        if (scene_hash(scene->imported.scene) != hash)
+            return Error{.file = file.string(), .what = "cannot be gathered: its copy is another scene"};
+        name = (inside / file.filename()).string();
+    }
+    plan.scenes.push_back({name, hash});
+    return scene;
+}
+
+// The recipe of an edited scene, whose file is in `folder`. Errors: it cannot be restored from text.
+Result<PlanLook> recipe_of(const PlanInput& input, const std::string& name, const RenderPlan& plan, const LoadedScene& loaded,
+                           const std::filesystem::path& folder, RenderSettings settings) {
     PlanLook look{.name = name, .scene = plan.scenes.size() - 1};
-    const std::filesystem::path folder = std::filesystem::path(plan.scenes.back().file).parent_path();
     const std::string edits = edits_json(loaded.imported, loaded.scene);
     if (count_left_out(edits) > 0) return Error{.file = name, .what = "its edits cannot be stored as text: save the scene as a file first"};
     if (!edits.empty()) {
@@ -50,6 +73,11 @@ Result<PlanLook> recipe_of(const std::string& name, const RenderPlan& plan, cons
         if (edits_json(loaded.imported, *restored) != edits) return Error{.file = name, .what = "its edits cannot be restored from text"};
     }
     look.lights_hash = lights_hash(loaded.scene);
+    if (input.gather) {
+        Result<std::string> gathered = gather_environment(look.edits, folder, folder);
+        if (!gathered) return in_file(gathered.error(), name);
+        look.edits = *std::move(gathered);
+    }
     settings.spp = settings.first_sample = 0;
     settings.seconds = settings.error = 0;
     settings.adaptive = false;
@@ -63,8 +91,8 @@ void provide_groups(const RenderPlan& plan, Scene& scene) {
         scene.mix.grouping = LightMix::Grouping::by_light;
 }
 
-Result<PlanLook> resolve_look(const LookRequest& request, const RenderPlan& plan, const ReadScene& scene) {
-    const std::filesystem::path file(plan.scenes.back().file);
+Result<PlanLook> resolve_look(const PlanInput& input, const LookRequest& request, const RenderPlan& plan, const ReadScene& scene) {
+    const std::filesystem::path& file = scene.file;
     Result<RenderOptions> options = options_of(request.words, {});
     if (!options) return in_file(options.error(), request.name);
     Result<RenderSettings> settings = settings_of(*options);
@@ -83,7 +111,7 @@ Result<PlanLook> resolve_look(const LookRequest& request, const RenderPlan& plan
     }
     if (request.turn) loaded->scene.view = turned(loaded->scene.view, world_bounds(loaded->scene), *request.turn);
     provide_groups(plan, loaded->scene);
-    Result<PlanLook> look = recipe_of(request.name, plan, *loaded, *settings);
+    Result<PlanLook> look = recipe_of(input, request.name, plan, *loaded, file.parent_path(), *settings);
     if (!look) return look.error();
     look->words = request.words;
     look->sequence = request.sequence;
@@ -118,8 +146,7 @@ Result<void> measure_first(const PlanInput& input, RenderPlan& plan, size_t firs
                            const std::atomic<bool>& interrupted) {
     const PlanLook& look = plan.looks[first_look];
     LoadedScene loaded{scene.imported.scene, scene.imported.scene, scene.imported.report, 0};
-    if (!look.edits.empty())
-        loaded.scene = *apply_edits_json(loaded.imported, look.edits, std::filesystem::path(plan.scenes.back().file).parent_path());
+    if (!look.edits.empty()) loaded.scene = *apply_edits_json(loaded.imported, look.edits, scene.file.parent_path());
     const Result<MeasuredCosts> costs = measure_costs(plan, look, loaded, scene.seconds, input.folder / "pilot.exr", run, interrupted);
     if (!costs) return costs.error();
     plan.costs = worst_of(plan.costs, *costs);
@@ -128,7 +155,7 @@ Result<void> measure_first(const PlanInput& input, RenderPlan& plan, size_t firs
 
 Result<void> add_scene(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
                        const std::atomic<bool>& interrupted) {
-    const Result<ReadScene> scene = read_scene(file, plan, run, interrupted);
+    const Result<ReadScene> scene = read_scene(input, file, plan, run, interrupted);
     if (!scene) return scene.error();
     const Result<std::vector<Axis>> axes = axes_of(input, scene->imported.scene);
     if (!axes) return in_file(axes.error(), file);
@@ -136,7 +163,7 @@ Result<void> add_scene(const PlanInput& input, const std::string& file, RenderPl
     if (!requests) return requests.error();
     const size_t first_look = plan.looks.size();
     for (const LookRequest& request : *requests) {
-        Result<PlanLook> look = resolve_look(request, plan, *scene);
+        Result<PlanLook> look = resolve_look(input, request, plan, *scene);
         if (!look) return look.error();
         plan.looks.push_back(*std::move(look));
         if (interrupted) return Error{.file = file, .what = "interrupted"};
@@ -158,7 +185,7 @@ Result<void> add_snapshot(const PlanInput& input, const std::string& file, Rende
     for (const std::filesystem::path& candidate : candidates) {
         if (candidate.filename() != std::filesystem::path(m->scene).filename() || !std::filesystem::is_regular_file(candidate, code))
             continue;
-        const Result<ReadScene> scene = read_scene(candidate, plan, run, interrupted);
+        const Result<ReadScene> scene = read_scene(input, candidate, plan, run, interrupted);
         if (!scene) return scene.error();
         if (plan.scenes.back().hash != m->scene_hash)
             return Error{.file = file, .what = fmt::format("was made from another version of {}", candidate.string())};
@@ -170,7 +197,8 @@ Result<void> add_snapshot(const PlanInput& input, const std::string& file, Rende
         RenderSettings settings = m->settings;
         if (input.options.width_given) settings.width = input.options.settings.width;
         if (input.options.height_given) settings.height = input.options.settings.height;
-        Result<PlanLook> look = recipe_of(m->name.empty() ? std::filesystem::path(file).stem().string() : m->name, plan, loaded, settings);
+        Result<PlanLook> look = recipe_of(input, m->name.empty() ? std::filesystem::path(file).stem().string() : m->name, plan, loaded,
+                                          scene->file.parent_path(), settings);
         if (!look) return in_file(look.error(), file);
         look->words["snapshot"] = std::filesystem::path(file).filename().string();
         plan.looks.push_back(*std::move(look));

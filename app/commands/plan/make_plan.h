@@ -16,6 +16,7 @@ struct PlanInput {
     int64_t turntable = 0;
     double frames_per_second = 24;
     std::string layers = "film";
+    bool gather = false;          // copies scenes into the folder
     std::optional<int64_t> chunk; // empty: chosen
     std::string program;
 };

@@ -81,6 +81,10 @@ size_t remove_damaged(const RenderPlan& plan, const PlanLook& look, const std::v
 
 } // namespace
 
+std::filesystem::path display_file(const std::filesystem::path& folder, const PlanLook& look) {
+    return merged_file(folder, look).replace_extension(".png");
+}
+
 std::vector<int64_t> planned_samples(const RenderPlan& plan) {
     std::vector<int64_t> planned(plan.looks.size());
     for (const PlanTask& task : plan.tasks) planned[task.look] = std::max(planned[task.look], task.samples.last);
@@ -109,14 +113,17 @@ Result<LookProgress> merge_look(const std::filesystem::path& folder, const Rende
     if (progress.chain.empty()) return Error{.file = look.name, .what = "has no samples yet from the first on"};
     const std::filesystem::path output = merged_file(folder, look);
     if (const Result<void> ready = provide_folder(folder, output.parent_path()); !ready) return ready.error();
+    std::error_code code;
+    std::filesystem::remove(display_file(folder, look), code);
     const Part& first = progress.chain.front();
     const bool done = progress.chain.size() > 1 ? run_merge_of(progress.chain, output, threads)
                                                 : check_part(first.file, plan, look, first.samples) && copy_part(first, output);
     if (!done) {
         const size_t removed = remove_damaged(plan, look, progress.chain);
         return Error{.file = look.name,
-                     .what = removed > 0 ? fmt::format("{} damaged parts were removed; blush plan resume lists their tasks again", removed)
-                                         : "cannot be merged"};
+                     .what = removed > 0
+                                 ? fmt::format("damaged parts were removed ({}); blush plan resume lists their tasks again", removed)
+                                 : "cannot be merged"};
     }
     const Result<std::map<std::string, std::string>> texts = read_metadata(output);
     if (!texts) return texts.error();

@@ -23,8 +23,11 @@ std::vector<int64_t> planned_samples(const RenderPlan& plan);
 // `planned`: the entry of this look in planned_samples().
 LookProgress look_progress(const std::filesystem::path& folder, const RenderPlan& plan, size_t look, int64_t planned);
 
-// Merges the chain of the look's parts into MERGED/LOOK.exr, unless that is there already. A part that turns out to be damaged is
-// removed, so that its samples are missing again. Errors: no parts, a damaged part, cannot write.
+// MERGED/LOOK.png, if it is of the merged image as it is now.
+std::filesystem::path display_file(const std::filesystem::path& folder, const PlanLook& look);
+
+// Merges the chain of the look's parts into MERGED/LOOK.exr, and removes the display image of the one before, unless that is there already.
+// A part that turns out to be damaged is removed, so that its samples are missing again. Errors: no parts, a damaged part, cannot write.
 Result<LookProgress> merge_look(const std::filesystem::path& folder, const RenderPlan& plan, size_t look, int64_t planned,
                                 unsigned threads);
 

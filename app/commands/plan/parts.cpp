@@ -101,6 +101,8 @@ Result<void> provide_folder(const std::filesystem::path& folder, const std::file
     std::error_code code;
     std::filesystem::create_directories(inside, code);
     if (code || !std::filesystem::is_directory(inside, code)) return Error{.file = inside.string(), .what = "cannot create this folder"};
+    for (std::filesystem::directory_iterator entry(inside, code), end; !code && entry != end; entry.increment(code))
+        if (entry->is_symlink(code)) return Error{.file = entry->path().string(), .what = "is a link, where a plan has files of its own"};
     return {};
 }
 

@@ -20,7 +20,8 @@ std::filesystem::path parts_folder(const std::filesystem::path& folder, const Pl
 std::filesystem::path part_file(const std::filesystem::path& folder, const PlanLook& look, SampleSpan samples);
 std::filesystem::path merged_file(const std::filesystem::path& folder, const PlanLook& look);
 
-// Creates a folder of the plan. Errors: it cannot be created, or a symbolic link leads out of the plan.
+// Creates a folder of the plan, into which files will be written. Errors: it cannot be created, a symbolic link leads out of the plan,
+// or the folder holds one: writing would follow it.
 Result<void> provide_folder(const std::filesystem::path& folder, const std::filesystem::path& inside);
 
 // Reads the whole file and checks that it is this part. Errors: unreadable, damaged, of another scene, version or range.

@@ -71,6 +71,10 @@ Result<void> check_usage(const PlanCommand& c, const Verb* verb) {
 
 // ---- making
 
+bool has_control_character(const std::string& text) {
+    return std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
 Result<void> complete_input(PlanCommand& c) {
     PlanInput& input = c.input;
     input.scenes = c.what;
@@ -80,6 +84,8 @@ Result<void> complete_input(PlanCommand& c) {
         if (std::ranges::find(c.given, unwanted) != c.given.end()) return Error{.what = fmt::format("--{} cannot be planned", unwanted)};
     if (std::ranges::find(c.given, "adaptive") != c.given.end() && input.options.settings.adaptive)
         return Error{.what = "--adaptive on cannot be planned: the sampling of each part would depend on all others"};
+    if (has_control_character(c.program)) return Error{.what = "--program must be one line"};
+    if (!(input.frames_per_second >= 0.01 && input.frames_per_second <= 1000)) return Error{.what = "--fps must be from 0.01 to 1000"};
     if (!input.frames.empty() && input.turntable > 0) return Error{.what = "--frames and --turntable exclude each other"};
     input.options.settings.adaptive = false;
     if (const Result<RenderSettings> settings = settings_of(input.options); !settings) return settings.error();
@@ -102,7 +108,7 @@ Result<std::filesystem::path> new_folder(const std::string& output) {
     if (code || !std::filesystem::is_directory(folder, code)) return Error{.file = output, .what = "is not a folder and cannot be created"};
     if (std::filesystem::exists(folder / "plan.json", code))
         return Error{.file = output, .what = "has a plan already; see blush plan resume"};
-    if (std::ranges::any_of(folder.string(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    if (has_control_character(folder.string()))
         return Error{.file = output, .what = "has a control character in its name, which no list of commands can hold"};
     return folder;
 }
@@ -116,7 +122,7 @@ std::string own_program() {
 void print_plan(const PlanCommand& c, const RenderPlan& plan) {
     const Workload work{int64_t(plan.looks.size()), plan.spp, plan.chunk};
     const std::vector<Scaling> table = scaling_table(plan.costs, work);
-    fmt::print("{}: {} looks, {} tasks of {} samples, {:.0f} MiB a task, {:.1f} % more than one process\n", c.output, plan.looks.size(),
+    fmt::print("{}: looks {}, tasks {} of {} samples and {:.0f} MiB, {:.1f} % more work than one process\n", c.output, plan.looks.size(),
                plan.tasks.size(), plan.chunk, plan.costs.memory_mib, 100 * plan_overhead(plan.costs, work));
     fmt::print("expected: {} on 1 worker, {} on {}; more hardly help\n", duration_text(table.front().seconds),
                duration_text(simulate(plan.costs, work, knee_of(table)).seconds), knee_of(table));
@@ -174,6 +180,12 @@ Result<std::vector<size_t>> looks_named(const RenderPlan& plan, const std::vecto
     return indices;
 }
 
+// Where merging and resuming write.
+Result<void> provide_outputs(const std::filesystem::path& folder) {
+    const Result<void> ready = provide_folder(folder, folder);
+    return ready ? provide_folder(folder, folder / "merged") : ready;
+}
+
 // Display images of all that is merged, the contact sheet, and films of sequences that are complete.
 Result<void> write_overview(const std::filesystem::path& folder, const RenderPlan& plan, bool prints) {
     std::vector<LookProgress> progress;
@@ -196,6 +208,7 @@ Result<void> write_overview(const std::filesystem::path& folder, const RenderPla
 
 // Merges what is complete; with --partial, what there is. The overview needs all looks, so it is not made for a few of them.
 int run_merges(const PlanCommand& c, const std::filesystem::path& folder, const RenderPlan& plan) {
+    if (const Result<void> ready = provide_outputs(folder); !ready) return failed(ready.error());
     const Result<std::vector<size_t>> chosen = looks_named(plan, {c.what.begin() + 2, c.what.end()});
     if (!chosen) return failed(in_file(chosen.error(), folder.string()));
     const Result<std::optional<ColorManagement>> color = color_for(ImageFormat::display, plan.view);
@@ -221,9 +234,11 @@ int run_merges(const PlanCommand& c, const std::filesystem::path& folder, const 
         if (const Result<void> overview = write_overview(folder, plan, c.prints()); !overview) return failed(overview.error());
     if (const Result<void> written = write_json(c.common.json, {{"merged", merged}, {"unfinished", unfinished}}); !written)
         return failed(written.error());
-    if (c.prints()) fmt::print("{}: {} looks merged, {} unfinished\n", (folder / "merged").string(), merged.size(), unfinished);
+    if (c.prints())
+        fmt::print("{}: {} of {} looks merged, {} unfinished\n", (folder / "merged").string(), merged.size(), chosen->size(), unfinished);
     if (unfinished > 0 && !c.partial)
-        return failed({.file = folder.string(), .what = fmt::format("{} looks lack samples; see blush plan status", unfinished)});
+        return failed({.file = folder.string(),
+                       .what = fmt::format("{} of {} looks lack samples; see blush plan status", unfinished, chosen->size())});
     return exit_done;
 }
 
@@ -244,6 +259,7 @@ int run_status(const PlanCommand& c, const std::filesystem::path& folder) {
 }
 
 int run_resume(const PlanCommand& c, const std::filesystem::path& folder, RenderPlan plan) {
+    if (const Result<void> ready = provide_outputs(folder); !ready) return failed(ready.error());
     const Result<Resumed> resumed = resume_plan(folder, plan, c.common.threads);
     if (!resumed) return failed(resumed.error());
     OrderedJson json = status_json(folder, plan, resumed->status);
@@ -275,13 +291,12 @@ void add_look_options(CLI::App& sub, PlanInput& input) {
     sub.add_option("--cameras", input.cameras, "One look per camera [the one of --camera]")->type_name("all|LIST");
     sub.add_option("--variants", input.variants, "One look per material variant [the one of --material-variant]")->type_name("all|LIST");
     sub.add_option("--frames", input.frames, "One look per frame of the animation, A to B, both included")->type_name("A:B[:STEP]");
-    sub.add_option("--fps", input.frames_per_second, "Frames per second of --frames and of films [24]")
-        ->check(CLI::Range(0.01, 1000.0))
-        ->type_name("F");
+    sub.add_option("--fps", input.frames_per_second, "Frames per second of --frames and of films, 0.01 to 1000 [24]")->type_name("F");
     sub.add_option("--turntable", input.turntable, "N looks around the centre of the scene, about the vertical")
         ->check(CLI::Range(1, 100000))
         ->type_name("N");
     sub.add_option("--snapshots", input.snapshots, "Snapshots of the window, as looks")->type_name("EXR");
+    sub.add_flag("--gather", input.gather, "Copy the scenes into the folder, for workers that do not see the originals");
     sub.add_option("--layers", input.layers, "Layers of the images, as in render; their sums are always there")->type_name("LIST");
 }
 

@@ -94,7 +94,7 @@ echo "contact sheet: job ${sheet%%;*}"
         rounds = "# The error decides after each round whether there is another one. Nothing new means the end, or tasks that fail.\n"
                  "if [ ! -s missing.txt ] || cmp -s missing.txt slurm/round.txt; then\n"
                  "    echo \"no new tasks\"\n"
-                 "    exit\n"
+                 "    exec @PROGRAM@ plan merge .\n"
                  "fi\n"
                  "mkdir -p slurm\n"
                  "cp missing.txt slurm/round.txt\n";
@@ -114,7 +114,7 @@ echo "contact sheet: job ${sheet%%;*}"
 std::string explanation(const RenderPlan& plan) {
     const std::string until = plan.error > 0 ? fmt::format("until the error is {:g}, at most {} samples per pixel", plan.error, plan.spp)
                                              : fmt::format("{} samples per pixel", plan.spp);
-    return fmt::format("A render plan of blush {}: {} looks, {}, {} tasks of {} samples.\n"
+    return fmt::format("A render plan of blush {}. Looks: {}, {}. Tasks: {} of {} samples.\n"
                        "\n"
                        "plan.json        what is rendered: scenes and their hashes, looks, tasks, measured costs, the scaling table\n"
                        "commands.txt     one command a line, in any order, on any machine that sees this folder and the scenes; running "
@@ -122,6 +122,7 @@ std::string explanation(const RenderPlan& plan) {
                        "missing.txt      those whose samples are missing, as of the last `blush plan resume`\n"
                        "merge.txt        one command a line, per look, after the tasks\n"
                        "submit-slurm.sh  submits what is missing and then the merges to Slurm; slurm-*.sh are its jobs\n"
+                       "scenes           copies of the scenes, if they were gathered\n"
                        "parts            sums of samples; logs, one per task; merged, the images\n"
                        "\n"
                        "On this machine, one task after the other:   sh commands.txt; blush plan merge DIR\n"

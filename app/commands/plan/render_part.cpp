@@ -4,6 +4,7 @@
 #include "app/commands/progress.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/image_metadata.h"
+#include "app/commands/render/layers.h"
 #include "app/commands/render/write_image.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"

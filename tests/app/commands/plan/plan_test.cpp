@@ -78,6 +78,55 @@ TEST(Plan, LooksAreThoseOfTheirOptions) {
     EXPECT_NE(test::text_of(plan.folder + "/contact-sheet.html").find("merged/card-and-mug-lens-3.png"), std::string::npos);
 }
 
+// A copy of the Cornell box with a second camera, two variants of the left wall, and a block that moves.
+std::string scene_with_choices(const TemporaryFolder& folder) {
+    const std::string file = test::scene_copy(folder, "cornell");
+    nlohmann::json scene = test::json_of(file);
+    nlohmann::json camera = scene["nodes"][8];
+    camera["name"] = "near / left";
+    camera["translation"] = {0.2, 0.3, -0.6};
+    scene["nodes"].push_back(camera);
+    scene["scenes"][0]["nodes"].push_back(9);
+    scene["extensionsUsed"].push_back("KHR_materials_variants");
+    scene["extensions"]["KHR_materials_variants"]["variants"] = {{
+                                                                     {"name", "Green"},
+                                                                 },
+                                                                 {{"name", "White"}}};
+    scene["meshes"][3]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}},
+                                                                                               {{"material", 0}, {"variants", {1}}}};
+    // Times 0 and 1; positions (0, 0, 0) and (0.5, 0.2, 0).
+    const size_t buffer = scene["buffers"].size(), view = scene["bufferViews"].size(), accessor = scene["accessors"].size();
+    scene["buffers"].push_back(
+        {{"byteLength", 32}, {"uri", "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAAA/zcxMPgAAAAA="}});
+    scene["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 0}, {"byteLength", 8}});
+    scene["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 8}, {"byteLength", 24}});
+    scene["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}, {"min", {0}}, {"max", {1}}});
+    scene["accessors"].push_back({{"bufferView", view + 1}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
+    scene["animations"] = {{{"name", "slide"},
+                            {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}},
+                            {"channels", {{{"sampler", 0}, {"target", {{"node", 6}, {"path", "translation"}}}}}}}};
+    test::write_text(file, scene.dump());
+    return file;
+}
+
+TEST(Plan, CamerasVariantsAndFramesAreLooks) {
+    const TemporaryFolder folder;
+    const SmallPlan plan{.scene = scene_with_choices(folder), .folder = folder / "plan", .spp = 4, .chunk = 4};
+    plan.make({"--cameras", "all", "--variants", "White,0", "--frames", "0:10:5", "--fps", "10"});
+    const std::set<std::string> names = look_names(plan);
+    EXPECT_EQ(names.size(), 2u * 2 * 3);
+    EXPECT_TRUE(names.contains("cornell-near---left-White.0005")) << *names.begin();
+    run_all(plan);
+    plan.render_whole(folder / "whole.exr",
+                      {"--camera", "1", "--material-variant", "White", "--animation", "slide", "--animation-time", "0.5"});
+    test::expect_same_pixels(plan.folder + "/merged/cornell-near---left-White.0005.exr", folder / "whole.exr");
+    std::set<std::vector<float>> images;
+    for (const std::string& name : names) images.insert(read_layers(plan.folder + "/merged/" + name + ".exr")->find("G")->values);
+    EXPECT_EQ(images.size(), names.size()) << "all are different images";
+    EXPECT_EQ(test::json_of(plan.folder + "/plan.json")["looks"][0]["sequence"], "cornell-published-camera-White");
+}
+
 TEST(Plan, SeveralScenesWithStudioLightKeepTheirNamesApart) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "other");
@@ -125,6 +174,30 @@ TEST(Plan, SnapshotsAreLooks) {
     EXPECT_NE(changed.err.find("another version of"), std::string::npos) << changed.err;
 }
 
+// The folder alone is enough, wherever it is then.
+TEST(Plan, GathersItsScenes) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "here");
+    std::filesystem::create_directory(folder / "here/data");
+    for (const char* name : {"cornell.gltf", "cornell.bin"})
+        std::filesystem::copy_file(std::filesystem::path(scene_file("cornell")).replace_filename(name),
+                                   folder / (std::string("here/") + name));
+    nlohmann::json scene = test::json_of(folder / "here/cornell.gltf");
+    scene["buffers"][0]["uri"] = "data/box%20of%20Cornell.bin";
+    test::write_text(folder / "here/cornell.gltf", scene.dump());
+    std::filesystem::rename(folder / "here/cornell.bin", folder / "here/data/box of Cornell.bin");
+    std::filesystem::copy_file(BLUSH_ASSETS "/environments/studio.hdr", folder / "here/map.hdr");
+    SmallPlan plan{.scene = folder / "here/cornell.gltf", .folder = folder / "plan", .spp = 4, .chunk = 4};
+    const Arguments environment{"--env", folder / "here/map.hdr,rotate=20"};
+    plan.render_whole(folder / "whole.exr", environment);
+    plan.make(test::joined(environment, {"--gather"}));
+    std::filesystem::remove_all(folder / "here");
+    std::filesystem::rename(plan.folder, folder / "there");
+    plan.folder = folder / "there";
+    run_all(plan);
+    test::expect_same_pixels(plan.folder + "/merged/cornell.exr", folder / "whole.exr");
+}
+
 TEST(Plan, QuotesForShells) {
     for (const std::string text : {"plain", "it's", "a b", "$HOME `id` \"x\" \\ * ~ ; &", "''", "-n"}) {
         const Finished echoed = test::shell("printf %s " + shell_quoted(text));
@@ -150,6 +223,8 @@ TEST(Plan, UsageErrorsExitWithTwo) {
     refused({scene, "-o", output, "--denoise", "fast"}, 2, "--denoise cannot be planned");
     refused({scene, "-o", output, "--layers", "depths"}, 2, "unknown layer");
     refused({scene, "-o", output, "--frames", "0:3", "--turntable", "3"}, 2, "exclude each other");
+    refused({scene, "-o", output, "--fps", "0"}, 2, "--fps must be");
+    refused({scene, "-o", output, "--program", "a\nb"}, 2, "--program must be one line");
     refused({scene, "-o", output, "--watch"}, 2, "--watch is not for making a plan");
     refused({"run", output}, 2, "plan run needs DIR TASK");
     refused({"status"}, 2, "plan status needs DIR");
@@ -164,6 +239,22 @@ TEST(Plan, UsageErrorsExitWithTwo) {
     refused({scene, "-o", output, "--quiet", "--looks", folder / "none.json"}, 1, "none.json");
 }
 
+TEST(Plan, StatusIsABarWithALinePerLook) {
+    const TemporaryFolder folder;
+    const SmallPlan plan{.scene = scene_file("cornell"), .folder = folder / "plan"};
+    plan.make();
+    expect_done(plan.task(1));
+    const std::string begun = expect_done({"plan", "status", plan.folder}).out;
+    EXPECT_NE(begun.find("[#####---------------]  25 %  1 of 4 tasks, 0 running"), std::string::npos) << begun;
+    EXPECT_NE(begun.find(" left for one worker"), std::string::npos) << begun;
+    EXPECT_NE(begun.find("16 of 64 samples\n"), std::string::npos) << begun;
+    run_all(plan);
+    const std::string done = expect_done({"plan", "status", plan.folder, "--watch"}).out; // ends, since all is done
+    EXPECT_NE(done.find("[####################] 100 %  4 of 4 tasks, 0 running"), std::string::npos) << done;
+    EXPECT_NE(done.find("64 of 64 samples, merged to 64, error "), std::string::npos) << done;
+    EXPECT_EQ(done.find(" left "), std::string::npos) << done;
+}
+
 TEST(Plan, MergeKnowsItsLooks) {
     const TemporaryFolder folder;
     const SmallPlan plan{.scene = scene_file("cornell"), .folder = folder / "plan"};
@@ -171,7 +262,7 @@ TEST(Plan, MergeKnowsItsLooks) {
     const Finished unknown = blush({"plan", "merge", plan.folder, "nobody"}), unfinished = blush({"plan", "merge", plan.folder, "--quiet"});
     EXPECT_NE(unknown.err.find("has no look \"nobody\""), std::string::npos) << unknown.err;
     EXPECT_EQ(unfinished.exit_code, 1);
-    EXPECT_NE(unfinished.err.find("1 looks lack samples"), std::string::npos) << unfinished.err;
+    EXPECT_NE(unfinished.err.find("1 of 1 looks lack samples"), std::string::npos) << unfinished.err;
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 namespace blush::TEST_FILE {
 namespace {
 
+using test::expect_done;
 using test::TemporaryFolder;
 
 RenderPlan some_plan() {
@@ -164,6 +165,26 @@ TEST(PlanFile, LinksOutOfTheFolderAreRefused) {
     EXPECT_EQ(finished.exit_code, 1);
     EXPECT_NE(finished.err.find("leads out of the folder"), std::string::npos) << finished.err;
     EXPECT_TRUE(std::filesystem::is_empty(outside.path()));
+    // Nor where one of its files is a link.
+    std::filesystem::remove(plan.folder + "/parts");
+    expect_done(plan.task(1));
+    test::write_text(outside / "precious", "precious");
+    for (const char* file : {"/parts/cornell/0000000016-0000000032.exr", "/merged/cornell.png", "/contact-sheet.png", "/missing.txt"}) {
+        std::filesystem::remove(plan.folder + file);
+        std::filesystem::create_symlink(outside / "precious", plan.folder + file);
+        const bool is_part = std::string(file).starts_with("/parts");
+        using Commands = std::vector<test::Arguments>;
+        const Commands commands =
+            is_part ? Commands{plan.task(2)}
+                    : Commands{{"plan", "merge", plan.folder, "--partial", "--quiet"}, {"plan", "resume", plan.folder, "--quiet"}};
+        for (const test::Arguments& writes : commands) {
+            const test::Finished refused = test::blush(writes);
+            EXPECT_EQ(refused.exit_code, 1) << file;
+            EXPECT_NE(refused.err.find("is a link"), std::string::npos) << refused.err;
+        }
+        EXPECT_EQ(test::text_of(outside / "precious"), "precious") << file;
+        std::filesystem::remove(plan.folder + file);
+    }
 }
 
 } // namespace
