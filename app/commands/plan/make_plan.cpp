@@ -237,7 +237,10 @@ Result<RenderPlan> make_plan(const PlanInput& input, const RenderRun& run, const
     for (const std::string& file : input.snapshots)
         if (const Result<void> added = add_snapshot(input, file, plan, run, interrupted); !added) return added.error();
     give_safe_names(plan.looks);
-    plan.chunk = input.chunk ? *input.chunk : choose_chunk(plan.costs, int64_t(plan.looks.size()), plan.spp);
+    const int64_t looks = int64_t(plan.looks.size());
+    plan.chunk = input.chunk          ? *input.chunk
+                 : input.workers == 0 ? choose_chunk(plan.costs, looks, plan.spp)
+                                      : choose_chunk_for(plan.costs, looks, plan.spp, input.workers);
     std::vector<LookSamples> wanted;
     // Where an error is to be reached, the first round is one chunk.
     for (size_t i = 0; i < plan.looks.size(); ++i) wanted.push_back({i, {0, plan.error > 0 ? std::min(plan.chunk, plan.spp) : plan.spp}});

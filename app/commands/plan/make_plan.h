@@ -18,6 +18,7 @@ struct PlanInput {
     std::string layers = "film";
     bool gather = false;          // copies scenes into the folder
     std::optional<int64_t> chunk; // empty: chosen
+    int64_t workers = 0;          // for which it is chosen; 0: not known
     std::string program;
 };
 

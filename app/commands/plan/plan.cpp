@@ -309,6 +309,9 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
         ->type_name("SCENE|VERB");
     sub->add_option("-o,--output", command->output, "Folder for the plan, which must not have one")->type_name("DIR");
     sub->add_option("--chunk", command->chunk, "Samples of a task, a power of two; auto: by a measured pilot [auto]")->type_name("auto|N");
+    sub->add_option("--workers", command->input.workers, "With --chunk auto: end as early as N workers can [little overhead for one]")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
     sub->add_option("--program", command->program, "How the commands of the plan call Blush [the path of this program]")
         ->type_name("COMMAND");
     add_look_options(*sub, command->input);

@@ -12,6 +12,12 @@ constexpr int64_t most_workers = 10000;
 // A look in more parts would take its merge too long.
 constexpr int64_t most_parts = 4096;
 
+int64_t smallest_chunk(int64_t spp) {
+    int64_t chunk = 1;
+    while (chunk < spp && (spp + chunk - 1) / chunk > most_parts) chunk *= 2;
+    return chunk;
+}
+
 int64_t parts_of(const Workload& work) { return (work.spp + work.chunk - 1) / work.chunk; }
 
 // One process renders each look as a whole and writes it.
@@ -71,11 +77,23 @@ double plan_overhead(const MeasuredCosts& costs, const Workload& work) {
 }
 
 int64_t choose_chunk(const MeasuredCosts& costs, int64_t looks, int64_t spp) {
-    int64_t chunk = 1;
-    while (chunk < spp && (spp + chunk - 1) / chunk > most_parts) chunk *= 2;
+    int64_t chunk = smallest_chunk(spp);
     for (; chunk < spp; chunk *= 2)
         if (plan_overhead(costs, {looks, spp, chunk}) < most_overhead) return chunk;
     return chunk;
+}
+
+int64_t choose_chunk_for(const MeasuredCosts& costs, int64_t looks, int64_t spp, int64_t workers) {
+    int64_t chunk = smallest_chunk(spp), best = chunk;
+    double least = simulate(costs, {looks, spp, chunk}, workers).seconds;
+    while (chunk < spp) {
+        chunk *= 2;
+        const double seconds = simulate(costs, {looks, spp, chunk}, workers).seconds;
+        if (seconds > least) continue;
+        least = seconds;
+        best = chunk;
+    }
+    return best;
 }
 
 } // namespace blush

@@ -43,5 +43,7 @@ int64_t knee_of(const std::vector<Scaling>& table);
 double plan_overhead(const MeasuredCosts& costs, const Workload& work);
 // The smallest power of two whose overhead is below 3 %: most workers can share a look then. If there is none, a look is one task.
 int64_t choose_chunk(const MeasuredCosts& costs, int64_t looks, int64_t spp);
+// The power of two with which this many workers end first, whatever it costs; the largest of several.
+int64_t choose_chunk_for(const MeasuredCosts& costs, int64_t looks, int64_t spp, int64_t workers);
 
 } // namespace blush

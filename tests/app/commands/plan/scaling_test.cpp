@@ -36,6 +36,16 @@ TEST(PlanScaling, ChunkIsTheSmallestWithLittleOverhead) {
     EXPECT_GE(plan_overhead(costs, {looks, spp, chunk / 2}), 0.03);
 }
 
+TEST(PlanScaling, ChunkForManyWorkersEndsFirst) {
+    const MeasuredCosts costs{.start = 1, .sample = 2, .write = 10, .read = 7};
+    const int64_t spp = 4096, chunk = choose_chunk_for(costs, 1, spp, 64);
+    EXPECT_EQ(chunk & (chunk - 1), 0);
+    EXPECT_LT(chunk, choose_chunk(costs, 1, spp)) << "more parts than one worker likes";
+    for (int64_t other = 1; other <= spp; other *= 2)
+        EXPECT_LE(simulate(costs, {1, spp, chunk}, 64).seconds, simulate(costs, {1, spp, other}, 64).seconds) << other;
+    EXPECT_EQ(choose_chunk_for(costs, 1, spp, 1), spp) << "one worker is quickest with one task";
+}
+
 TEST(PlanScaling, LittleWorkIsOneTaskPerLook) {
     const MeasuredCosts costs{.start = 100, .sample = 0.1, .write = 1, .read = 1};
     EXPECT_EQ(choose_chunk(costs, 10, 50), 64);
