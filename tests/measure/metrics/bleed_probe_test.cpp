@@ -25,7 +25,7 @@ struct CardAndWall {
 CardAndWall card_and_wall() {
     CardAndWall s;
     const Vec3 red{0.8f, 0.1f, 0.05f}, a{0, 0, 1}, b{0, 0, -1}, c{0, 1.5f, -1}, d{0, 1.5f, 1};
-    const Vec3d travel = normalize(Vec3d{-1, -1.2, 0.2});
+    const Vec3d travel = normalize(Vec3d{-1, -0.25, 0.2});
     place(s.scene, quad(a, b, c, d), lambert(red));
     place(s.scene, quad({0.4f, 0, 0.2f}, {0.6f, 0, 0.2f}, {0.6f, 0, 0}, {0.4f, 0, 0}), lambert(float(s.card)));
     Light sun;

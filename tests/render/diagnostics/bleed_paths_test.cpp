@@ -61,6 +61,7 @@ Scene with_all_lights(bool panes) {
     sheet.alpha = Material::Alpha::blend;
     sheet.opacity = 0.4f;
     sheet.double_sided = true;
+    sheet.emissive = {0.05f, 0.1f, 0.05f};
     place(scene, quad({-2, 0.01f, -1.5f}, {2, 0.01f, -1.5f}, {2, 2, -1.5f}, {-2, 2, -1.5f}), sheet);
     if (panes) {
         Material pane = gel({0.9f, 0.9f, 0.5f});
@@ -119,7 +120,7 @@ TEST(BleedPaths, TellSendersAndLightsApart) {
         for (const auto& [sender, flow] : sums.senders) senders[sender] = senders[sender] + flow.light;
         for (const auto& [light, rgb] : sums.lights) lights[light] = lights[light] + rgb;
     }
-    // The sky, the emissive quad, three lights and the panes, whose emission is found by light sampling as well.
+    // The sky, the emissive quad, the sheet, three lights and the panes, whose emission is found by light sampling as well.
     EXPECT_EQ(lights.size(), tracer.lights().groups.size() + 1);
     EXPECT_TRUE(lights.contains(glowing_pane));
     for (const SentBy by : {SentBy::itself, SentBy::light, SentBy::object})
