@@ -65,7 +65,7 @@ void draw_aov_bar(PanelContext& c, const ImageRect& seen) {
     const Frame* frame = c.frame.get();
     const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
     const std::string name = elided(name_of(c.ui.aov, frame), room);
-    const bool open = ImGui::BeginCombo("##aov", name.c_str(), ImGuiComboFlags_HeightLarge);
+    const bool open = ImGui::BeginCombo("##aov", name.c_str(), ImGuiComboFlags_HeightLargest);
     if (!open) {
         c.ui.probe.record_last_item("Viewport/AOV");
         tip_for_last_item(c.ui, "The AOV that the viewport shows. Comma and full stop step through the list.");
