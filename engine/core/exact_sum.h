@@ -1,59 +1,93 @@
-// Exact sums: the same bits for any order and any grouping of the summands, so that an image that was rendered in parts equals one
-// that was rendered at once. Two doubles hold a fixed-point number: integers up to 2^53 and a fraction in units of 2^-52. Summands
-// are rounded to that unit (2.2e-16) when they are added. The rounding adds and subtracts a large constant (error-free extraction:
-// Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013, "Fast reproducible floating-point summation").
+// Sums with the same bits for any order and any grouping of the summands, so that an image that was rendered in parts equals one
+// that was rendered at once: indexed summation (Demmel and Nguyen 2013, "Fast reproducible floating-point summation") with two bins
+// of 28 bits. Each summand is rounded to the units of a high and a low bin, and the bins are summed without rounding. The units
+// follow the largest summand: when a larger one comes, the low bin is dropped and the high one takes its place. What is kept of a
+// summand then is what would have been kept of it afterwards, so the order does not matter.
 #pragma once
 
 #include "core/vec.h"
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
 namespace blush {
 
+// A summand keeps at least 27 bits relative to the largest summand, 50 if that is between 3e-8 and 8. For up to 2^24 summands.
 class ExactSum {
 public:
-    // Beyond this magnitude sums are rounded like sums of doubles, so that their last bit may depend on the order.
-    static constexpr double max_exact = 0x1p53;
-    // Summands are multiples of this.
-    static constexpr double unit = 0x1p-52;
-    // From whole() and fraction(), or from a number and 0.
-    static ExactSum of(double whole, double fraction) {
+    // From high() and biased_low(). Others, such as of a damaged file, give the sum of `high` alone.
+    static ExactSum of(double high, double biased_low) {
         ExactSum sum;
-        sum.add(whole);
-        sum.add(fraction);
+        if (!is_bias(biased_low)) {
+            sum.add(high);
+            return sum;
+        }
+        sum.high_ = high;
+        sum.low_ = biased_low;
+        return sum;
+    }
+    static ExactSum of(double value) {
+        ExactSum sum;
+        sum.add(value);
         return sum;
     }
 
-    // Finite numbers only.
     void add(double x) {
-        const double integer = rounded_to_integer(x);
-        fraction_ += rounded_to_unit(x - integer);
-        whole_ += integer;
-        carry();
+        if (!(std::abs(x) < limit())) {
+            if (!std::isfinite(x)) {
+                high_ += x;
+                return;
+            }
+            raise(steps_to(x));
+        }
+        const double low_bias = bias(), high_bias = low_bias * bin;
+        // Adding the bias moves the last bit to the place of the unit: rounds to nearest.
+        const double high = (x + high_bias) - high_bias;
+        high_ += high;
+        low_ += ((x - high) + low_bias) - low_bias;
     }
-    void add(const ExactSum& other) {
-        fraction_ += other.fraction_;
-        whole_ += other.whole_;
-        carry();
+    void add(ExactSum other) {
+        const int steps = (exponent_bits(other.low_) - exponent_bits(low_)) / bin_bits;
+        if (steps > 0) raise(steps);
+        if (steps < 0) other.raise(-steps);
+        high_ += other.high_;
+        low_ += other.low_ - bias();
     }
     // Rounded once.
-    double value() const { return whole_ + fraction_; }
+    double value() const { return high_ + (low_ - bias()); }
 
-    // The sum as an integer and a fraction in (-1/2, 1/2]: one form for each sum.
-    double whole() const { return whole_; }
-    double fraction() const { return fraction_; }
+    double high() const { return high_; }
+    // The low bin plus 1.5 times a power of two, which tells the units.
+    double biased_low() const { return low_; }
     bool operator==(const ExactSum&) const = default;
 
 private:
-    // Both to nearest: adding the constant moves the last bit of x to the unit's place.
-    static double rounded_to_integer(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
-    static double rounded_to_unit(double x) { return (x + 1.5) - 1.5; }
-    void carry() {
-        // Half a unit away from ties, so that -1/2 becomes 1/2: one form for each number.
-        const double integer = rounded_to_integer(fraction_ - 0x1p-53);
-        fraction_ -= integer;
-        whole_ += integer;
+    static constexpr int bin_bits = 28;
+    static constexpr double bin = 0x1p28;
+    static constexpr int first_exponent = -20 * bin_bits; // of the bias at first: far below all radiance
+
+    static int exponent_bits(double x) { return int(std::bit_cast<uint64_t>(x) >> 52 & 0x7ff); }
+    static bool is_bias(double x) {
+        const int above = exponent_bits(x) - 1023 - first_exponent;
+        return x > 0 && above >= 0 && above % bin_bits == 0 && std::isfinite(x * bin);
+    }
+    // 2^p for a low bin whose unit is 2^(p - 52).
+    double power() const { return std::bit_cast<double>(std::bit_cast<uint64_t>(low_) & 0x7ff0000000000000u); }
+    double bias() const { return 1.5 * power(); }
+    // Half the unit of the bin above the high one: smaller summands leave nothing there.
+    double limit() const { return 8 * power(); }
+    int steps_to(double x) const {
+        const int needed = std::ilogb(x) + 1 - 3 - (exponent_bits(low_) - 1023); // |x| < 2^(ilogb + 1)
+        return (needed + bin_bits - 1) / bin_bits;
+    }
+    void raise(int steps) {
+        const double power_above = std::ldexp(power(), steps * bin_bits);
+        low_ = 1.5 * power_above + (steps == 1 ? high_ : 0);
+        high_ = 0;
     }
 
-    double whole_ = 0, fraction_ = 0;
+    double high_ = 0, low_ = 0x1.8p-560;
 };
 
 // Three sums, for RGB.

@@ -1,6 +1,8 @@
 // Plane of values that are stored without loss, one per pixel: sums or integers.
 #pragma once
 
+#include "core/exact_sum.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,9 +15,9 @@ struct LosslessPlane {
     std::string name;
     std::vector<double> sums = {};
     std::vector<uint32_t> words = {};
-    std::vector<double> fractions = {}; // of exact sums (exact_sum.h), whose integer parts are the sums; else empty
+    std::vector<double> low = {}; // biased low bins of exact sums (exact_sum.h), whose high bins are the sums; else empty
     // A sum, rounded once.
-    double sum(size_t pixel) const { return fractions.empty() ? sums[pixel] : sums[pixel] + fractions[pixel]; }
+    double sum(size_t pixel) const { return low.empty() ? sums[pixel] : ExactSum::of(sums[pixel], low[pixel]).value(); }
     size_t size() const { return sums.empty() ? words.size() : sums.size(); }
     bool operator==(const LosslessPlane&) const = default;
 };

@@ -16,6 +16,12 @@ Scene shipped_scene(const std::string& name);
 const std::vector<std::string>& shipped_scene_names();
 const std::vector<std::string>& caustic_scene_names();
 
+// A glass ball on a floor in the light of a wide sun.
+Scene glass_ball_in_sun();
+// A shipped scene with suns and lamps so large that paths without the strategies for caustics find them too: means of fewer would
+// not be normal.
+Scene with_wide_lights(const std::string& name);
+
 // A light so strong and so close to the floor that its irradiance overflows in the middle of the image.
 Scene floor_under_an_overflowing_bulb();
 

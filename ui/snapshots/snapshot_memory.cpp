@@ -22,7 +22,7 @@ size_t bytes_of(const DenoisedImage& d) { return bytes_of(d.denoised.rgb) + (d.g
 
 size_t bytes_of(const FilmState& f) {
     size_t sum = bytes_of(f.shares[0]) + bytes_of(f.shares[1]) + bytes_of(f.marked);
-    for (const LosslessPlane& plane : f.planes) sum += bytes_of(plane.sums) + bytes_of(plane.fractions) + bytes_of(plane.words);
+    for (const LosslessPlane& plane : f.planes) sum += bytes_of(plane.sums) + bytes_of(plane.low) + bytes_of(plane.words);
     return sum;
 }
 

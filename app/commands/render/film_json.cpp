@@ -154,7 +154,7 @@ std::string checksum(const FilmState& film, std::span<const LosslessPlane> besid
         hash.array(plane->name);
         hash.array(plane->sums);
         hash.array(plane->words);
-        hash.array(plane->fractions);
+        hash.array(plane->low);
     }
     return fmt::format("{:016x}", hash.value());
 }

@@ -9,7 +9,7 @@
 namespace blush {
 namespace {
 
-constexpr std::string_view high = ".high", low = ".low", word = ".word", fraction = ".fraction";
+constexpr std::string_view high = ".high", low = ".low", word = ".word", low_bin = ".low_bin";
 
 void add_words(LayeredImage& image, std::string name, std::vector<uint32_t> words) {
     image.channels.push_back({std::move(name), {}, true, std::move(words)});
@@ -28,16 +28,16 @@ void add_doubles(LayeredImage& image, const std::string& name, const std::vector
     add_words(image, name + std::string(low), std::move(lower));
 }
 
-// Moves the planes of fractions into the planes of their sums.
-void join_fractions(std::vector<LosslessPlane>& planes) {
+// Moves the planes of low bins into the planes of their sums.
+void join_low_bins(std::vector<LosslessPlane>& planes) {
     std::map<std::string, LosslessPlane*, std::less<>> sums;
     for (LosslessPlane& plane : planes) sums.emplace(plane.name, &plane);
     for (LosslessPlane& plane : planes) {
-        if (!plane.name.ends_with(fraction)) continue;
-        const auto of = sums.find(std::string_view(plane.name).substr(0, plane.name.size() - fraction.size()));
-        if (of != sums.end()) of->second->fractions = std::exchange(plane.sums, {});
+        if (!plane.name.ends_with(low_bin)) continue;
+        const auto of = sums.find(std::string_view(plane.name).substr(0, plane.name.size() - low_bin.size()));
+        if (of != sums.end()) of->second->low = std::exchange(plane.sums, {});
     }
-    std::erase_if(planes, [](const LosslessPlane& plane) { return plane.name.ends_with(fraction); });
+    std::erase_if(planes, [](const LosslessPlane& plane) { return plane.name.ends_with(low_bin); });
 }
 
 } // namespace
@@ -46,7 +46,7 @@ void add_lossless_plane(LayeredImage& image, const std::string& layer, const Los
     const std::string name = layer + "." + plane.name;
     if (plane.sums.empty()) return add_words(image, name + std::string(word), plane.words);
     add_doubles(image, name, plane.sums);
-    if (!plane.fractions.empty()) add_doubles(image, name + std::string(fraction), plane.fractions);
+    if (!plane.low.empty()) add_doubles(image, name + std::string(low_bin), plane.low);
 }
 
 std::vector<LosslessPlane> take_lossless_planes(LayeredImage& image, const std::string& layer) {
@@ -77,7 +77,7 @@ std::vector<LosslessPlane> take_lossless_planes(LayeredImage& image, const std::
             planes.push_back(std::move(plane));
         }
     }
-    join_fractions(planes);
+    join_low_bins(planes);
     return planes;
 }
 

@@ -10,6 +10,7 @@
 #include <exception>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace blush {
 namespace {
@@ -23,10 +24,10 @@ template <class T> constexpr bool is_sum = std::is_floating_point_v<T> || is_exa
 void add(ExactSum& sum, const ExactSum& more) { sum.add(more); }
 template <class T> void add(T& sum, T more) { sum += more; }
 
-// A pixel's value in a plane of the right size. Films of older versions have sums without fractions.
+// A pixel's value in a plane of the right size. Films of older versions have sums without low bins.
 template <class T> T value_in(const LosslessPlane& plane, size_t pixel) {
     if constexpr (is_exact<T>)
-        return ExactSum::of(plane.sums[pixel], plane.fractions.empty() ? 0 : plane.fractions[pixel]);
+        return plane.low.empty() ? ExactSum::of(plane.sums[pixel]) : ExactSum::of(plane.sums[pixel], plane.low[pixel]);
     else if constexpr (is_sum<T>)
         return T(plane.sums[pixel]);
     else
@@ -35,8 +36,8 @@ template <class T> T value_in(const LosslessPlane& plane, size_t pixel) {
 
 template <class T> void set_value(LosslessPlane& plane, size_t pixel, const T& value) {
     if constexpr (is_exact<T>) {
-        plane.sums[pixel] = value.whole();
-        plane.fractions[pixel] = value.fraction();
+        plane.sums[pixel] = value.high();
+        plane.low[pixel] = value.biased_low();
     } else if constexpr (is_sum<T>)
         plane.sums[pixel] = double(value);
     else
@@ -49,7 +50,7 @@ template <class T> LosslessPlane empty_plane(const std::string& name, size_t pix
         plane.sums.resize(pixels);
     else
         plane.words.resize(pixels);
-    if constexpr (is_exact<T>) plane.fractions.resize(pixels);
+    if constexpr (is_exact<T>) plane.low.resize(pixels, ExactSum().biased_low());
     return plane;
 }
 
@@ -77,7 +78,7 @@ std::optional<Error> find_mismatch(const Film& film, const FilmState& state) {
     FilmPlanes::visit(film, [&](const std::string& name, Combine, const auto& at) {
         const LosslessPlane* plane = find_plane(state.planes, name);
         const bool there = plane && (is_sum<ValueOf<decltype(at)>> ? plane->sums.size() : plane->words.size()) == pixels &&
-                           (plane->fractions.empty() || plane->fractions.size() == pixels);
+                           (plane->low.empty() || plane->low.size() == pixels);
         if (!there && !error) error = Error{"", fmt::format("the saved samples lack the plane \"{}\"", name), ""};
     });
     return error;
@@ -148,9 +149,9 @@ void scale_planes(FilmState& state, std::span<const Vec3> factors, const std::st
         plane = empty_plane<ExactSum>(plane.name, pixels);
         for (size_t k = 0; k < factors.size(); ++k) {
             LosslessPlane& group = *state.find(group_name(k) + name);
-            group.fractions.resize(pixels);
+            const LosslessPlane before = std::exchange(group, empty_plane<ExactSum>(group.name, pixels));
             for (size_t i = 0; i < pixels; ++i) {
-                const auto scaled = ExactSum::of(value_in<ExactSum>(group, i).value() * double(factors[k].*channel), 0);
+                const auto scaled = ExactSum::of(value_in<ExactSum>(before, i).value() * double(factors[k].*channel));
                 set_value(group, i, scaled);
                 ExactSum sum = value_in<ExactSum>(plane, i);
                 sum.add(scaled);

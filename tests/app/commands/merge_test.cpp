@@ -213,7 +213,7 @@ TEST(Merge, RefusesDamagedPartsAndOtherVersions) {
     };
     fails(
         [](LayeredImage& image) {
-            LayeredImage::Channel channel = *image.find("film.odd.G.fraction.low");
+            LayeredImage::Channel channel = *image.find("film.odd.G.low_bin.low");
             channel.words[77] ^= 1u << 13;
             image.set(channel);
         },

@@ -108,9 +108,9 @@ const std::vector<double> awkward_sums{
     0.0, -0.0, 1.0 / 3, 1e300, 5e-324, -1e-200, std::numeric_limits<double>::infinity(), 4503599627370497.5};
 
 TEST(Snapshot, LosslessPlanesRoundTripExactly) {
-    std::vector<double> fractions(awkward_sums.rbegin(), awkward_sums.rend());
+    std::vector<double> low(awkward_sums.rbegin(), awkward_sums.rend());
     const std::vector<LosslessPlane> planes{
-        {"even.R", awkward_sums, {}, fractions}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}, {"normal.X", awkward_sums}};
+        {"even.R", awkward_sums, {}, low}, {"even.count", {}, {0, 1, 16777217, 4294967295u, 5, 6, 7, 8}}, {"normal.X", awkward_sums}};
     const std::vector<float> rgba(8 * 4, 0.5f);
     SnapshotInput input;
     input.width = 4;
@@ -134,9 +134,9 @@ TEST(Snapshot, LosslessPlanesRoundTripExactly) {
         return result;
     };
     EXPECT_EQ(bits(back[0].sums), bits(awkward_sums));
-    EXPECT_EQ(bits(back[0].fractions), bits(fractions));
+    EXPECT_EQ(bits(back[0].low), bits(low));
     EXPECT_EQ(bits(back[2].sums), bits(awkward_sums));
-    EXPECT_TRUE(back[2].fractions.empty());
+    EXPECT_TRUE(back[2].low.empty());
     EXPECT_TRUE(read->find("film.even.R.high")->words.empty()) << "the image has lost them";
 
     std::vector<LosslessPlane> wrong = planes;

@@ -13,20 +13,9 @@ using namespace statistics;
 constexpr int width = 24, height = 14, planes = 6;
 constexpr CausticOptions everything{.light_path_share = 1.f, .manifold_sampling = true};
 
-// With suns and lamps so large that paths without these strategies find them too, and a second light.
+// With wide lights, and a second light.
 Scene lit_scene(const std::string& name) {
-    const Scene shipped = shipped_scene(name);
-    Scene scene = shipped;
-    for (const auto& [id, record] : shipped.lights) {
-        Light light = record;
-        if (light.kind == Light::Kind::sun) light.angle_radians = 1.2f;
-        scene.lights.set(id, light);
-    }
-    for (const auto& [id, record] : shipped.nodes) {
-        Node node = record;
-        if (node.name == "lamp") node.local.scale = {8, 1, 8};
-        scene.nodes.set(id, node);
-    }
+    Scene scene = with_wide_lights(name);
     Node second;
     second.name = "second";
     second.local.translation = {0.2f, 0.6f, 0.1f};

@@ -25,25 +25,16 @@ inline Light caustic_light(Light::Kind kind, float intensity, float radius = 0) 
 // Regions of w x h pixels: means over independent images, as one light path adds to many pixels. Calls check(renderer) for each.
 template <class Check> std::vector<Measured> image_regions(const Scene& scene, RenderSettings settings, const CausticOptions& strategies,
                                                            int images, uint32_t first_seed, int w, int h, const Check& check) {
-    using statistics::Moments;
-    std::vector<std::array<Moments, 3>> moments;
+    BlockMoments moments;
     for (int k = 0; k < images; ++k) {
         settings.seed = first_seed + uint32_t(k);
         Renderer renderer({.threads = 2, .caustics = strategies});
         renderer.update(scene, settings);
         renderer.render(0, settings.spp);
         check(renderer);
-        const auto blocks = image_of(renderer).blocks(w, h);
-        moments.resize(blocks.size());
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            moments[i][0].add(blocks[i].mean.x);
-            moments[i][1].add(blocks[i].mean.y);
-            moments[i][2].add(blocks[i].mean.z);
-        }
+        moments.add(image_of(renderer).blocks(w, h));
     }
-    std::vector<Measured> measured;
-    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
-    return measured;
+    return moments.measured();
 }
 
 // Nine blocks of the image.

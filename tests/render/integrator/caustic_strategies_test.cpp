@@ -12,24 +12,6 @@ namespace {
 
 using namespace statistics;
 
-// With lights so large that paths without these strategies find them too: means of fewer would not be normal.
-Scene widened(const std::string& name) {
-    const Scene shipped = shipped_scene(name);
-    Scene scene = shipped;
-    for (const auto& [id, record] : shipped.lights) {
-        Light light = record;
-        if (light.kind == Light::Kind::sun) light.angle_radians = 1.2f;
-        scene.lights.set(id, light);
-    }
-    for (const auto& [id, record] : shipped.nodes) {
-        Node node = record;
-        if (node.name == "lamp") node.local.scale = {8, 1, 8};
-        if (node.name == "filament") node.local.scale = {7, 7, 7};
-        scene.nodes.set(id, node);
-    }
-    return scene;
-}
-
 bool uses(const Scene& scene, const RenderSettings& settings, std::string_view feature) {
     Renderer renderer({.threads = 2});
     renderer.update(scene, settings);
@@ -45,7 +27,7 @@ std::vector<Measured> blocks_with(const Scene& scene, RenderSettings settings, C
 TEST(CausticStrategies, AgreeOnTheDemoScenes) {
     for (const std::string& name : caustic_scene_names()) {
         SCOPED_TRACE(name);
-        const Scene scene = widened(name);
+        const Scene scene = with_wide_lights(name);
         RenderSettings settings = settings_for(48, 27, 512); // rare bright samples: many, so that means are normal
         const auto without = blocks_with(scene, settings, CausticStrategy::off, 1);
         settings.spp = 128;

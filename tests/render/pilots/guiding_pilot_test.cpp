@@ -28,18 +28,6 @@ Scene balls_under_lamp() {
     place(scene, ceiling_quad(0.5f, 2.9f), emitter(10));
     return scene;
 }
-Scene balls_in_sun() {
-    Scene scene;
-    place(scene, floor_quad(3), lambert(0.7f));
-    place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.7f));
-    Light sun;
-    sun.kind = Light::Kind::sun;
-    sun.angle_radians = 0.2f;
-    sun.intensity = 3;
-    place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
-    scene.view = looking({0, 2, 5}, {0, 0.5f, 0}, 0.6f);
-    return scene;
-}
 // All light comes through the glass: the lamp is in the middle of a closed ball.
 Scene bulb() {
     Scene scene;
@@ -57,7 +45,7 @@ constexpr const char* feature = "path guiding";
 FeatureUse decided(const Scene& scene, const RenderSettings& settings) { return decided_line(scene, settings, feature); }
 
 TEST(GuidingPilot, PaysWhereLightIsFocused) {
-    for (const Scene& scene : {balls_under_lamp(), balls_in_sun(), bulb()}) {
+    for (const Scene& scene : {balls_under_lamp(), glass_ball_in_sun(), bulb()}) {
         const FeatureUse use = decided(scene, settings_of(8));
         EXPECT_TRUE(use.used) << use.why;
         ASSERT_TRUE(use.pilot) << use.why;
@@ -74,14 +62,14 @@ TEST(GuidingPilot, IsLeftOutWhereNothingFocuses) {
     settings = settings_of(8);
     settings.max_bounces = 1;
     EXPECT_EQ(decided(balls_under_lamp(), settings).why, "paths end before light has been focused");
-    Scene hidden = balls_in_sun(); // a roof keeps the sun from the ball
+    Scene hidden = glass_ball_in_sun(); // a roof keeps the sun from the ball
     place(hidden, ceiling_quad(3, 2), lambert(0.5f));
     EXPECT_FALSE(decided(hidden, settings_of(8)).used);
 }
 
 // BSDF sampling alone is not guided: it finds all caustics by chance.
 TEST(GuidingPilot, AgreesWithBsdfSampling) {
-    for (const Scene& scene : {balls_under_lamp(), balls_in_sun(), bulb()}) {
+    for (const Scene& scene : {balls_under_lamp(), glass_ball_in_sun(), bulb()}) {
         RenderSettings settings = settings_for(32, 24, 256);
         ASSERT_TRUE(decided(scene, settings).used);
         const auto guided = render(scene, settings).blocks(8, 8);
@@ -111,7 +99,7 @@ double error_of(const std::vector<float>& rgba, const std::vector<float>& truth)
 
 // Against many samples: without guiding, most pixels miss the caustic, and the variance of few samples does not show it.
 TEST(GuidingPilot, ReducesTheError) {
-    for (const Scene& scene : {balls_in_sun(), balls_under_lamp()}) {
+    for (const Scene& scene : {glass_ball_in_sun(), balls_under_lamp()}) {
         RenderSettings settings = settings_of(1024);
         const std::vector<float> truth = rendered_in_parts(scene, settings, {{0, 1024}}).rgba;
         statistics::Moments gains;
@@ -140,7 +128,7 @@ TEST(GuidingPilot, IsTheSameWithEveryKernelAndAnyNumberOfThreads) {
 
 // What is gained is so much that the first sample is rendered again when a second one follows.
 TEST(GuidingPilot, DecidesOverAllSamplesOfSeveral) {
-    const Scene scene = balls_in_sun();
+    const Scene scene = glass_ball_in_sun();
     RenderSettings settings = settings_of(8);
     const Frame whole = rendered_in_parts(scene, settings, {{0, 8}});
     for (const unsigned threads : {1u, 3u}) {
@@ -152,7 +140,7 @@ TEST(GuidingPilot, DecidesOverAllSamplesOfSeveral) {
 }
 
 TEST(GuidingPilot, FirstSampleOfSeveralIsGuided) {
-    const Scene scene = balls_in_sun();
+    const Scene scene = glass_ball_in_sun();
     const RenderSettings settings = settings_of(2);
     const Frame alone = rendered_in_parts(scene, settings, {{0, 1}}), second = rendered_in_parts(scene, settings, {{1, 1}}),
                 both = rendered_in_parts(scene, settings, {{0, 1}, {1, 1}});

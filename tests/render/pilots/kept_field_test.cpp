@@ -252,22 +252,16 @@ TEST(KeptField, OfAnotherLightBiasesNothing) {
     settings.seed = 77;
     const auto by_chance = render(after, settings).blocks(8, 8);
     settings = guided(32, 24, 4);
-    std::vector<std::array<statistics::Moments, 3>> moments(by_chance.size());
+    BlockMoments moments;
     Renderer renderer({.threads = 2, .planes = {}, .begins_trained = true});
     for (uint32_t seed = 0; seed < 96; ++seed) {
         settings.seed = seed;
         edit(renderer, stage.scene, after, settings);
         ASSERT_TRUE(renderer.render(0, 1));
         ASSERT_TRUE(feature_line(renderer, feature).used);
-        const auto blocks = image_of(renderer).blocks(8, 8);
-        for (size_t i = 0; i < blocks.size(); ++i) {
-            moments[i][0].add(blocks[i].mean.x);
-            moments[i][1].add(blocks[i].mean.y);
-            moments[i][2].add(blocks[i].mean.z);
-        }
+        moments.add(image_of(renderer).blocks(8, 8));
     }
-    std::vector<Measured> kept;
-    for (const auto& [r, g, b] : moments) kept.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
+    const std::vector<Measured> kept = moments.measured();
     EXPECT_TRUE(same_means(kept, by_chance));
     EXPECT_FALSE(same_means(kept, render(stage.scene, settings_for(32, 24, 256)).blocks(8, 8))) << "the sun did not turn";
 }

@@ -1,6 +1,7 @@
 // Sessions begin trained after an edit (kept_field.h), and every image that is complete or saved is that of a fresh start.
 #include "measure/stability/rendered_image.h"
 #include "measure/stability/scenes.h"
+#include "tests/render/scenes.h"
 #include "tests/render/session/recording_session.h"
 #include "tests/support/images.h"
 
@@ -17,19 +18,6 @@ using test::RecordingSession;
 using test::same_pixels;
 using State = SessionStatus::State;
 
-Scene ball_in_sun() {
-    Scene scene;
-    place(scene, floor_quad(3), lambert(0.7f));
-    place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.7f));
-    Light sun;
-    sun.kind = Light::Kind::sun;
-    sun.angle_radians = 0.2f;
-    sun.intensity = 3;
-    place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
-    scene.view = looking({0, 2, 5}, {0, 0.5f, 0}, 0.6f);
-    return scene;
-}
-
 RenderSettings guided(int64_t samples) {
     RenderSettings settings = settings_for(80, 48, samples);
     settings.caustics = CausticStrategy::guiding;
@@ -42,7 +30,7 @@ bool begins_trained(const Frame& frame) {
 }
 
 TEST(KeptFieldSession, CompleteAndSavedImagesAreThoseOfAFreshStart) {
-    const Scene before = ball_in_sun();
+    const Scene before = test::glass_ball_in_sun();
     Scene after = before;
     for (const auto& [id, light] : before.lights) {
         Light brighter = light;

@@ -153,7 +153,7 @@ TEST(Paths, RefusesWhatItCannotReplay) {
     refused(paths_of("cornell", "3,3", "0:4", {"--time", "3"}), 2, "no --time or --error");
     refused(paths_of("cornell", "3,3", "0:4", {"--region", "0,0,4,4"}), 2, "no --region");
     refused(paths_of("cornell", "3,3", "0:4", {"--denoise", "fast"}), 2, "no image to denoise");
-    refused(paths_of("cornell", "3,3", "0:4", {"--adaptive", "on"}), 2, "--samples and --adaptive exclude each other");
+    refused(paths_of("cornell", "3,3", "0:4", {"--adaptive", "on"}), 2, "adaptive sampling chooses its own");
     refused(paths_of("cornell", "3,3", "0:4", {"--obj", "/nowhere/a.obj"}), 1, "/nowhere/a.obj: its folder does not exist");
     refused({"paths", "/nowhere.gltf", "--pixel", "1,1", "--quiet"}, 1, "/nowhere.gltf");
 }

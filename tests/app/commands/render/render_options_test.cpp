@@ -160,12 +160,12 @@ TEST(RenderOptions, SamplesAreARange) {
     EXPECT_FALSE(settings_of(parsed({"--samples", "16:48", "--spp", "64"})));
 }
 
-TEST(RenderOptions, AdaptiveSamplingTakesNoRange) {
+TEST(RenderOptions, AdaptiveSamplingTakesRangesOfThePilotOrAnAllocation) {
     EXPECT_TRUE(settings_of(parsed({}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--adaptive", "off"}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--adaptive", "off", "--samples", "16:48"}))->adaptive);
     EXPECT_FALSE(settings_of(parsed({"--samples", "16:48"}))->adaptive) << "the default is removed";
-    for (const char* range : {"16:48", "0:48"}) {
+    for (const char* range : {"16:48", "4:12"}) {
         const Result<RenderSettings> both = settings_of(parsed({"--adaptive", "on", "--samples", range}));
         ASSERT_FALSE(both);
         EXPECT_NE(both.error().text().find("--adaptive"), std::string::npos) << both.error().text();
