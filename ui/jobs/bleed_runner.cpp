@@ -1,7 +1,5 @@
 #include "ui/jobs/bleed_runner.h"
 
-#include "scene/changes.h"
-
 namespace blush {
 namespace {
 
@@ -12,7 +10,7 @@ constexpr int64_t least_paths = 32 * bleed_batch_paths, most_paths = int64_t(1) 
 } // namespace
 
 BleedWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, const BleedTarget& target_)
-    : scene(scene_), settings(settings_), target(target_) {
+    : ImageInput{scene_, settings_}, target(target_) {
     settings.resolution_scale = 1;
     settings.region = {};
     if (target.kind == BleedTarget::Kind::pixels) return;
@@ -21,16 +19,10 @@ BleedWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, co
     if (target.kind == BleedTarget::Kind::incoming) scene.view = {};
 }
 
-bool BleedWork::Input::has_same_result(const Input& other) const {
-    return target == other.target && !diff(scene, settings, other.scene, other.settings).affects_image();
-}
+bool BleedWork::Input::has_same_result(const Input& other) const { return target == other.target && ImageInput::has_same_result(other); }
 
 bool BleedWork::is_good(const Output& report) {
     return !report || !report->lit || report->paths >= most_paths || (report->paths >= least_paths && report->error() <= good_error);
-}
-
-bool BleedMapWork::Input::has_same_result(const Input& other) const {
-    return !diff(scene, settings, other.scene, other.settings).affects_image();
 }
 
 } // namespace blush

@@ -3,6 +3,7 @@
 
 #include "measure/metrics/bleed_map.h"
 #include "measure/metrics/bleed_probe.h"
+#include "ui/jobs/image_input.h"
 #include "ui/jobs/round_runner.h"
 
 #include <optional>
@@ -12,11 +13,9 @@ namespace blush {
 // Who lights a place.
 class BleedWork {
 public:
-    struct Input {
+    struct Input : ImageInput {
         Input(const Scene& scene, const RenderSettings& settings, const BleedTarget& target);
 
-        Scene scene;
-        RenderSettings settings;
         BleedTarget target;
         bool has_same_result(const Input& other) const;
     };
@@ -35,11 +34,7 @@ using BleedRunner = RoundRunner<BleedWork>;
 // The greatest sender of each part of the image.
 class BleedMapWork {
 public:
-    struct Input {
-        Scene scene;
-        RenderSettings settings;
-        bool has_same_result(const Input& other) const;
-    };
+    using Input = ImageInput;
     using Output = BleedGrid;
 
     static constexpr int cell = 16; // pixels

@@ -1,7 +1,5 @@
 #include "ui/jobs/meter_runner.h"
 
-#include "scene/changes.h"
-
 #include <algorithm>
 
 namespace blush {
@@ -14,7 +12,7 @@ constexpr double good_enough = 0.002; // half the confidence interval, relative
 } // namespace
 
 MeterWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, const std::vector<MeterPlace>& places_)
-    : scene(scene_), settings(settings_), places(places_) {
+    : ImageInput{scene_, settings_}, places(places_) {
     // Readings do not depend on view or resolution.
     scene.view = {};
     settings.width = settings.height = 1;
@@ -22,9 +20,7 @@ MeterWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, co
     settings.region = {};
 }
 
-bool MeterWork::Input::has_same_result(const Input& other) const {
-    return places == other.places && !diff(scene, settings, other.scene, other.settings).affects_image();
-}
+bool MeterWork::Input::has_same_result(const Input& other) const { return places == other.places && ImageInput::has_same_result(other); }
 
 bool MeterWork::round(const std::function<bool()>& wanted) { return meters_.round(samples_per_round, wanted); }
 

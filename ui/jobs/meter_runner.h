@@ -2,6 +2,7 @@
 #pragma once
 
 #include "measure/metrics/light_meter.h"
+#include "ui/jobs/image_input.h"
 #include "ui/jobs/round_runner.h"
 
 #include <vector>
@@ -10,11 +11,9 @@ namespace blush {
 
 class MeterWork {
 public:
-    struct Input {
+    struct Input : ImageInput {
         Input(const Scene& scene, const RenderSettings& settings, const std::vector<MeterPlace>& places);
 
-        Scene scene;
-        RenderSettings settings;
         std::vector<MeterPlace> places;
         // True if the light at the meters is the same for both inputs.
         bool has_same_result(const Input& other) const;

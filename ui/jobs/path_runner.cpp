@@ -1,7 +1,6 @@
 #include "ui/jobs/path_runner.h"
 
 #include "core/math.h"
-#include "scene/changes.h"
 
 #include <chrono>
 
@@ -16,7 +15,7 @@ constexpr size_t most_bins = 24;
 } // namespace
 
 bool PathWork::Input::has_same_result(const Input& other) const {
-    return pixels == other.pixels && samples == other.samples && !diff(scene, settings, other.scene, other.settings).affects_image();
+    return pixels == other.pixels && samples == other.samples && ImageInput::has_same_result(other);
 }
 
 void PathWork::begin(const Input& input) {

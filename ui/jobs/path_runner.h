@@ -3,6 +3,7 @@
 
 #include "measure/statistics/path_statistics.h"
 #include "render/diagnostics/path_recorder.h"
+#include "ui/jobs/image_input.h"
 #include "ui/jobs/round_runner.h"
 
 #include <memory>
@@ -28,9 +29,7 @@ struct PathSet {
 
 class PathWork {
 public:
-    struct Input {
-        Scene scene;
-        RenderSettings settings;
+    struct Input : ImageInput {
         std::vector<TracedPixel> pixels; // none: only compiles the scene and runs the pilots, so that the first path appears at once
         int64_t samples = 0;             // of each pixel
         bool has_same_result(const Input& other) const;

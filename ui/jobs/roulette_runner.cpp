@@ -1,17 +1,11 @@
 #include "ui/jobs/roulette_runner.h"
 
-#include "scene/changes.h"
-
 namespace blush {
 namespace {
 
 constexpr int64_t max_roulette_rounds = 2000; // enough to measure a bias of 0.01 %
 
 } // namespace
-
-bool RouletteWork::Input::has_same_result(const Input& other) const {
-    return !diff(scene, settings, other.scene, other.settings).affects_image();
-}
 
 bool RouletteWork::is_good(const Output& report) { return report.rounds >= max_roulette_rounds; }
 

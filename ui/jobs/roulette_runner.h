@@ -2,17 +2,14 @@
 #pragma once
 
 #include "measure/lab/roulette_comparison.h"
+#include "ui/jobs/image_input.h"
 #include "ui/jobs/round_runner.h"
 
 namespace blush {
 
 class RouletteWork {
 public:
-    struct Input {
-        Scene scene;
-        RenderSettings settings;
-        bool has_same_result(const Input& other) const;
-    };
+    using Input = ImageInput;
     using Output = RouletteReport;
 
     void begin(const Input& q) { lab_.begin(q.scene, q.settings); }
