@@ -278,6 +278,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
     if (state.highlights) s.highlights = state.highlights;
     s.first_is_rough = state.first_is_rough;
     s.samples = state.samples;
+    s.loaded_first = state.first_sample;
     s.rays = state.rays;
     s.path_counts = state.path_counts;
     s.truncated = state.truncated;

@@ -66,6 +66,7 @@ struct Renderer::State {
     std::optional<CompiledInfo> info;
     std::shared_ptr<const FeatureReport> feature_report; // null: must be computed
     int64_t samples = 0;
+    int64_t loaded_first = 0; // first sample of a film that was loaded, else 0
     RayCounts rays;
     StageSeconds stages; // since the film was cleared
     std::vector<PathCounts> path_counts;
@@ -140,7 +141,7 @@ struct Renderer::State {
         film_is_uneven = false;
         first_is_rough = first_as_others = first_is_trained = false;
         feature_report.reset();
-        samples = 0;
+        samples = loaded_first = 0;
         rays = {};
         stages = {};
         path_counts.clear();

@@ -210,7 +210,7 @@ bool Renderer::decide(const std::function<bool()>& wanted) { return state_->deci
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
-    const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.samples : first;
+    const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
     if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
         if (!s.decide(wanted)) return false;
         if (s.samples == 0) s.begin_splats();

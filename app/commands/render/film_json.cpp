@@ -185,7 +185,7 @@ std::string film_json(const FilmState& film) {
         for (size_t k = 0; k < film.highlights->bands.size(); ++k)
             if (const auto& [rate, sum] = film.highlights->bands[k]; rate > 0) highlights.push_back({k, rate, sum.x, sum.y, sum.z});
     if (film.highlights) json["highlights"] = std::move(highlights);
-    if (film.first_is_rough) json["first"] = "rough";
+    if (film.first_sample == 0 && film.samples == 1 && !film.first_is_rough) json["first"] = "complete";
     json["checksum"] = checksum(film, planes_beside_film(film));
     return json_text(json);
 }
@@ -223,7 +223,8 @@ Result<FilmState> film_in_file(LayeredImage& image, const SnapshotMetadata& meta
     }
     if (const Json& bands = member(*json, "highlights"); !bands.is_null() && !read_highlights(bands, film.highlights.emplace()))
         return bad("highlights");
-    film.first_is_rough = film.first_sample == 0 && film.samples == 1 && member(*json, "first") == "rough";
+    // Older versions do not say so: theirs always is.
+    film.first_is_rough = film.first_sample == 0 && film.samples == 1 && member(*json, "first") != "complete";
     if (const Json& mix = member(*json, "mix"); !mix.is_null() && !read_mix(mix, film.mix)) return bad("mix");
     film.planes = take_lossless_planes(image, "film");
     // Without any pass the splats would be left out of the image.

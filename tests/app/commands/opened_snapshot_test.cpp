@@ -147,6 +147,28 @@ Result<FilmState> read_with_passes(const nlohmann::json& passes, bool light_path
     return film_in_file(image, metadata);
 }
 
+// Older versions saved it only as rendered before the pilots.
+TEST(FilmInFile, SaysWhetherALoneFirstSampleIsComplete) {
+    Film film;
+    film.reset({.width = 1, .height = 1});
+    FilmState state = save_film(film);
+    state.samples = 1;
+    const auto is_rough = [&](bool saved, bool old) {
+        state.first_is_rough = saved;
+        nlohmann::json json = nlohmann::json::parse(film_json(state));
+        if (old) json.erase("first");
+        LayeredImage image;
+        image.width = image.height = 1;
+        for (const LosslessPlane& plane : planes_in_file(state)) add_lossless_plane(image, "film", plane);
+        SnapshotMetadata metadata;
+        metadata.film = json.dump();
+        return film_in_file(image, metadata)->first_is_rough;
+    };
+    EXPECT_TRUE(is_rough(true, false));
+    EXPECT_FALSE(is_rough(false, false));
+    EXPECT_TRUE(is_rough(false, true));
+}
+
 TEST(FilmInFile, KeepsPassesOfLightPathsAndRefusesImpossibleOnes) {
     const Result<FilmState> film = read_with_passes({3, 2});
     ASSERT_TRUE(film) << film.error().text();

@@ -86,6 +86,28 @@ TEST(FilmMerger, MergesMergedParts) {
     EXPECT_TRUE(merge_films(b, a, image.settings)->planes == image.render({0, samples}).planes);
 }
 
+// As when the window opens it.
+TEST(FilmMerger, APartByAnAllocationGoesOnWithItsNextSample) {
+    const Scene scene = shipped_scene("veach-mis");
+    RenderSettings settings = small();
+    settings.width = 48;
+    settings.height = 32;
+    settings.adaptive = true;
+    RendererOptions options = with_planes(true);
+    const auto render = [&](int64_t first, int64_t count) {
+        Renderer renderer(options);
+        renderer.update(scene, settings);
+        renderer.render(first, count);
+        return *renderer.save_film(first);
+    };
+    options.allocation = render(0, 16).shares;
+    Renderer renderer(with_planes(false));
+    renderer.update(scene, settings);
+    ASSERT_TRUE(renderer.load_film(render(16, 4)));
+    renderer.render(20, 4);
+    EXPECT_TRUE(renderer.save_film(16)->planes == render(16, 8).planes);
+}
+
 TEST(FilmMerger, RefusesGapsOverlapsAndARoughFirstSample) {
     Image image("cornell");
     FilmMerger merger(image.settings);

@@ -100,7 +100,7 @@ TEST(PlanFile, ErrorsSayWhere) {
         {"/looks/0/settings/adaptive", true, "looks[0].settings"},
         {"/looks/0/settings/size", "0x0", "looks[0].settings"},
         {"/looks/0/edits", "text", "looks[0].edits"},
-        {"/tasks/1/look", "nobody", "tasks[1].look"},
+        {"/tasks/1/look", "missing-look", "tasks[1].look"},
         {"/tasks/1/samples", {4, 4}, "tasks[1].samples"},
         {"/tasks/1/samples", {-4, 4}, "tasks[1].samples"},
         {"/tasks/1/samples", {0, 9e18}, "tasks[1].samples"},
