@@ -259,7 +259,8 @@ TEST(Plan, MergeKnowsItsLooks) {
     const TemporaryFolder folder;
     const SmallPlan plan{.scene = scene_file("cornell"), .folder = folder / "plan"};
     plan.make();
-    const Finished unknown = blush({"plan", "merge", plan.folder, "no-such-look"}), unfinished = blush({"plan", "merge", plan.folder, "--quiet"});
+    const Finished unknown = blush({"plan", "merge", plan.folder, "missing-look"}),
+                   unfinished = blush({"plan", "merge", plan.folder, "--quiet"});
     EXPECT_NE(unknown.err.find("has no look \"missing-look\""), std::string::npos) << unknown.err;
     EXPECT_EQ(unfinished.exit_code, 1);
     EXPECT_NE(unfinished.err.find("1 of 1 looks lack samples"), std::string::npos) << unfinished.err;
