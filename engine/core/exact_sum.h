@@ -34,12 +34,9 @@ public:
     }
 
     void add(double x) {
-        if (!(std::abs(x) < limit())) {
-            if (!std::isfinite(x)) {
-                high_ += x;
-                return;
-            }
-            raise(steps_to(x));
+        if (!(std::abs(x) < limit()) && !make_room(x)) [[unlikely]] {
+            high_ += x;
+            return;
         }
         const double low_bias = bias(), high_bias = low_bias * bin;
         // Adding the bias moves the last bit to the place of the unit: rounds to nearest.
@@ -77,9 +74,12 @@ private:
     double bias() const { return 1.5 * power(); }
     // Half the unit of the bin above the high one: smaller summands leave nothing there.
     double limit() const { return 8 * power(); }
-    int steps_to(double x) const {
+    // For a summand beyond the limit. False for one that is not finite. Out of line: a sum rarely needs it more than once.
+    [[gnu::noinline]] bool make_room(double x) {
+        if (!std::isfinite(x)) return false;
         const int needed = std::ilogb(x) + 1 - 3 - (exponent_bits(low_) - 1023); // |x| < 2^(ilogb + 1)
-        return (needed + bin_bits - 1) / bin_bits;
+        raise((needed + bin_bits - 1) / bin_bits);
+        return true;
     }
     void raise(int steps) {
         const double power_above = std::ldexp(power(), steps * bin_bits);

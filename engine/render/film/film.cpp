@@ -45,9 +45,9 @@ std::vector<PlaneUse> Film::plane_uses(const FilmSize& size) {
 
 size_t Film::memory_bytes() const {
     const auto bytes = [](const auto& plane) { return plane.capacity() * sizeof(plane[0]); };
-    return bytes(half_buffers_) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) + bytes(object_id_) +
-           bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes() + strategies_.memory_bytes() +
-           splats_.memory_bytes();
+    return bytes(half_buffers_[0]) + bytes(half_buffers_[1]) + bytes(features_) + bytes(covered_) + bytes(caught_) + bytes(depth_) +
+           bytes(object_id_) + bytes(material_) + bytes(paths_) + bounces_.memory_bytes() + groups_.memory_bytes() +
+           strategies_.memory_bytes() + splats_.memory_bytes();
 }
 
 void Film::require_memory(const FilmSize& size) {
@@ -88,7 +88,7 @@ void Film::set_gains(std::span<const Vec3> gains) {
 
 void Film::clear() {
     const size_t n = size_t(width_) * size_t(height_);
-    half_buffers_.assign(2 * n, {});
+    for (std::vector<HalfBuffer>& half : half_buffers_) half.assign(n, {});
     features_.assign(planes_.albedo || planes_.normal ? n : 0, {});
     const size_t places = adaptive_ ? 2 * n : n;
     covered_.assign(transparent_ ? places : 0, 0);
@@ -148,26 +148,31 @@ void Film::add_first_hit(size_t pixel, size_t place, const FirstHitColumns& firs
 
 // Of the samples alone: how many passes of light paths there are by now depends on how samples are asked for.
 Vec3d Film::sum_of(size_t pixel) const {
-    const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
+    const HalfBuffer &a = half_buffers_[0][pixel], &b = half_buffers_[1][pixel];
     return a.sum.value() + b.sum.value();
 }
 
-// Threshold for the pixel's next samples: those whose components sum
-// to at most this are neither clamped nor among the worst fireflies.
-float Film::notable_sum(size_t pixel, int samples) const {
-    float limit = std::min(std::numeric_limits<float>::max(), clamp_.min_clamped_sum());
-    const double count = double(half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count + samples),
-                 least = double(health_.min_excess());
+// The excess divides by sqrt(mean^2 + 0.1^2), and luminance is at most 0.716 of the sum of the components.
+constexpr double darkest_mean = 0.1, max_luminance_of_sum = 0.716;
+
+float Film::least_notable_sum() const {
+    const float limit = std::min(std::numeric_limits<float>::max(), clamp_.min_clamped_sum());
+    return std::min(limit, float(double(health_.min_excess()) * darkest_mean / max_luminance_of_sum));
+}
+
+bool Film::is_notable(size_t pixel, int samples, double sum) const {
+    const HalfBuffer &a = half_buffers_[0][pixel], &b = half_buffers_[1][pixel];
+    const double count = double(a.count + b.count + samples), least = double(health_.min_excess());
+    if (sum > double(std::min(std::numeric_limits<float>::max(), clamp_.min_clamped_sum()))) return true;
+    // A lower bound of the mean during these samples, times their number.
+    const double least_total = std::max(luminance(sum_of(pixel)), darkest_mean * count);
     // No sample exceeds n times the mean of n samples.
-    if (count <= least) return limit;
-    // Lower bound of the mean during these samples; luminance is at most 0.716 of the sum.
-    const double mean = luminance(sum_of(pixel)) / count;
-    return std::min(limit, float(least * std::max(mean, 0.1) / 0.716)); // 0.1: the excess divides by sqrt(mean^2 + 0.01)
+    return count > least && sum * max_luminance_of_sum * count > least * least_total;
 }
 
 void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot, const ClampStats::ClampResult& left) {
     const size_t place = place_of(pixel, half);
-    const bool first_of_pixel = half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count == 0;
+    const bool first_of_pixel = half_buffers_[0][pixel].count + half_buffers_[1][pixel].count == 0;
     if (needs_first_hits()) add_first_hit(pixel, place, *tile.first, slot, first_of_pixel);
     if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
     if (needs_groups() > 0) groups_.add(pixel, half, *tile.groups, slot, left.first_scaled, left.scale);
@@ -192,21 +197,24 @@ void Film::add_notable(size_t pixel, const SampleName& at, const TileScratch& ti
     const ClampStats::ClampResult left = clamp_.clamp(place, tile, slot);
     if (has_planes()) add_planes(pixel, int(at.sample & 1), tile, slot, left);
     if (caught) add_caught(place, tile, *caught, slot, left.radiance);
-    half_buffers_[2 * pixel + size_t(at.sample & 1)].add(left.radiance);
-    const double mean = luminance(sum_of(pixel)) / double(half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count);
+    half_buffers_[size_t(at.sample & 1)][pixel].add(left.radiance);
+    const double mean = luminance(sum_of(pixel)) / double(half_buffers_[0][pixel].count + half_buffers_[1][pixel].count);
     const double bright = luminance(radiance);
-    const float excess = float(bright / std::sqrt(mean * mean + 0.01));
+    const float excess = float(bright / std::sqrt(mean * mean + darkest_mean * darkest_mean));
     if (excess >= health_.min_excess()) findings.fireflies.push_back({excess, float(bright), at.x, at.y, at.sample, at.seed});
 }
 
 void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const Diagnose& diagnose, const CatcherColumns* caught) {
     const bool planes = has_planes();
+    const float surely_ordinary = least_notable_sum();
     Findings findings;
     int slot = 0;
     for (int y = job.y; y < job.y + job.height; ++y) {
         for (int x = job.x; x < job.x + job.width; ++x) {
             const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
-            const float notable = notable_sum(pixel, job.samples);
+            double brightest = 0;
+            for (int s = slot; s < slot + job.samples; ++s) brightest = std::max(brightest, tile.r[s] + tile.g[s] + tile.b[s]);
+            const double notable = brightest <= surely_ordinary || is_notable(pixel, job.samples, brightest) ? surely_ordinary : brightest;
             for (int s = 0; s < job.samples; ++s, ++slot) {
                 const int64_t sample = job.sample(s);
                 const double r = tile.r[slot], g = tile.g[slot], b = tile.b[slot];
@@ -214,7 +222,7 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
                 if (r >= 0 && g >= 0 && b >= 0 && r + g + b <= notable) {
                     if (planes) add_planes(pixel, int(sample & 1), tile, slot, {});
                     if (caught) add_caught(place_of(pixel, sample), tile, *caught, slot, {r, g, b});
-                    half_buffers_[2 * pixel + size_t(sample & 1)].add({r, g, b});
+                    half_buffers_[size_t(sample & 1)][pixel].add({r, g, b});
                 } else {
                     add_notable(pixel, {x, y, sample, seed}, tile, slot, diagnose, findings, caught);
                 }
@@ -234,7 +242,7 @@ void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, cons
     for (int slot = 0; slot < job.paths(); ++slot) {
         const int x = job.x + slot % job.width, y = job.y + slot / job.width;
         const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
-        HalfBuffer& half = half_buffers_[2 * pixel];
+        HalfBuffer& half = half_buffers_[0][pixel];
         if (!pixels.has(x, y) || half.count == 0) continue;
         const auto add = [&](ExactSum3& sum, const auto& c) { sum.add(Vec3d{c.r[slot], c.g[slot], c.b[slot]} * sign); };
         add(half.sum, tile);

@@ -105,7 +105,7 @@ public:
     template <class Change> void each_material(const Change& change) {
         for (int32_t& index : material_) change(index);
     }
-    bool has_samples(size_t pixel) const { return half_buffers_[2 * pixel].count + half_buffers_[2 * pixel + 1].count > 0; }
+    bool has_samples(size_t pixel) const { return half_buffers_[0][pixel].count + half_buffers_[1][pixel].count > 0; }
     const Health& health() const { return health_.health(); }
     // Continues from the health record of another film (film_state.h).
     void restore_health(const Health& health) { health_.restore(health); }
@@ -160,7 +160,7 @@ private:
 
     // As sum(), without the groups' gains.
     Vec3d unmixed_sum(size_t pixel, int half) const {
-        const HalfBuffer& h = half_buffers_[2 * pixel + size_t(half)];
+        const HalfBuffer& h = half_buffers_[size_t(half)][pixel];
         if (!splats_.on()) return h.sum.value();
         return h.sum.value() + splats_.sum_for(pixel, half, h.count);
     }
@@ -170,7 +170,10 @@ private:
     Vec3d group_sum(size_t pixel, int half, size_t group) const;
     Vec3d strategy_sum(size_t pixel, int half, FoundBy by) const;
     Vec3d sum_of(size_t pixel) const;
-    float notable_sum(size_t pixel, int samples) const;
+    // False if the pixel's next samples are neither clamped nor among the worst fireflies, since their components sum to at most `sum`.
+    bool is_notable(size_t pixel, int samples, double sum) const;
+    // The same for samples of any pixel: none up to this sum is notable.
+    float least_notable_sum() const;
     bool has_planes() const {
         return needs_first_hits() || planes_.bounces > 0 || planes_.roulette || planes_.strategies || needs_groups() > 0;
     }
@@ -201,7 +204,8 @@ private:
     bool transparent_ = false, adaptive_ = false, catches_ = false, light_paths_ = false;
     Clamp clamping_;
     int group_count_ = 0;
-    std::vector<HalfBuffer> half_buffers_; // two per pixel: even and odd samples, two randomisations of the sampler
+    // Even and odd samples: two randomisations of the sampler. Apart, because a pass over the image adds to one of them.
+    std::array<std::vector<HalfBuffer>, 2> half_buffers_;
     std::vector<FeatureSums> features_;
     std::vector<int64_t> covered_; // samples that hit something; only for transparent backgrounds
     std::vector<float> depth_;     // of the first sample, like the ids: their means are meaningless

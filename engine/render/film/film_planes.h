@@ -17,7 +17,7 @@ struct FilmPlanes {
     // visit(name, combine, at): at(pixel) is a reference to the number or to the exact sum.
     template <class AnyFilm, class Visit> static void visit(AnyFilm& film, const Visit& visit) {
         for (size_t half = 0; half < 2; ++half) {
-            const auto in_half = [&film, half ](size_t pixel) -> auto& { return film.half_buffers_[2 * pixel + half]; };
+            const auto in_half = [&film, half ](size_t pixel) -> auto& { return film.half_buffers_[half][pixel]; };
             visit(
                 name_of(half, "R"), Combine::add, [=](size_t pixel) -> auto& { return in_half(pixel).sum.x; });
             visit(

@@ -49,7 +49,7 @@ void Film::Totals::merge(const Totals& other) {
 Vec3d Film::group_sum(size_t pixel, int half, size_t group) const {
     const Vec3d samples = groups_.sum(pixel, half, group).value();
     if (!splats_.on()) return samples;
-    return samples + splats_.group_for(pixel, half, group, half_buffers_[2 * pixel + size_t(half)].count);
+    return samples + splats_.group_for(pixel, half, group, half_buffers_[size_t(half)][pixel].count);
 }
 
 Vec3d Film::mixed_sum(size_t pixel, int half) const {
@@ -64,11 +64,11 @@ Vec3d Film::mixed_sum(size_t pixel, int half) const {
 Vec3d Film::strategy_sum(size_t pixel, int half, FoundBy by) const {
     if (by != FoundBy::light_path) return strategies_.sum(pixel, half, size_t(by)).value();
     if (!splats_.on()) return {0, 0, 0};
-    return splats_.sum_for(pixel, half, half_buffers_[2 * pixel + size_t(half)].count);
+    return splats_.sum_for(pixel, half, half_buffers_[size_t(half)][pixel].count);
 }
 
 void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const {
-    const double na = double(half_buffers_[2 * pixel].count), nb = double(half_buffers_[2 * pixel + 1].count);
+    const double na = double(half_buffers_[0][pixel].count), nb = double(half_buffers_[1][pixel].count);
     // The square of |A - B| times this is an unbiased estimate of the variance of the weighted mean.
     const double k = na > 0 && nb > 0 ? std::sqrt(na * w.a * nb * w.b) : 0;
     for (size_t g = 0; g < frame.groups.size(); ++g) {
@@ -84,7 +84,7 @@ void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vec
 
 void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const {
     for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i) {
-        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[0][i], &b = half_buffers_[1][i];
         const int64_t count = a.count + b.count;
         const Weights w = weights(a, b);
         float* rgba = &frame.rgba[4 * i];
@@ -138,7 +138,7 @@ void Film::for_each_band(const Workers& workers, const std::function<void(size_t
 }
 
 PixelHalfBuffers Film::half_buffers(size_t pixel) const {
-    const HalfBuffer &a = half_buffers_[2 * pixel], &b = half_buffers_[2 * pixel + 1];
+    const HalfBuffer &a = half_buffers_[0][pixel], &b = half_buffers_[1][pixel];
     if (a.count == 0 || b.count == 0) return {};
     const double na = double(a.count), nb = double(b.count);
     return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a};
@@ -154,7 +154,7 @@ void Film::load_half_buffers(int y, float scale, HalfBufferRow& row) const {
     } n;
     for (int x = 0; x < width_; ++x) {
         const size_t i = size_t(y) * size_t(width_) + size_t(x);
-        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[0][i], &b = half_buffers_[1][i];
         if (a.count != n.a || b.count != n.b) {
             const Weights w = weights(a, b);
             const double s = double(scale), na = double(a.count), nb = double(b.count);
@@ -240,7 +240,7 @@ std::vector<Vec3> Film::standard_error() const {
     std::vector<Vec3> result;
     result.reserve(n);
     for (size_t i = 0; i < n; ++i) {
-        const HalfBuffer &a = half_buffers_[2 * i], &b = half_buffers_[2 * i + 1];
+        const HalfBuffer &a = half_buffers_[0][i], &b = half_buffers_[1][i];
         if (a.count == 0 || b.count == 0) return {};
         const double na = double(a.count), nb = double(b.count);
         // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.
