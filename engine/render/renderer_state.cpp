@@ -83,18 +83,21 @@ void Renderer::State::begin_learning(const FieldEffect& effect, bool same_photon
 
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
-    const RenderSettings settings = effective_settings(asked);
+    const RenderSettings settings = s.kernel_settings_for(asked);
+    const bool other_indirect = s.indirect && std::exchange(s.max_bounces, asked.max_bounces) != asked.max_bounces;
     const auto begun = State::Clock::now();
     if (s.apply_mix(scene, settings)) return false;
     const bool mixed = scene.mix.grouping != LightMix::Grouping::none;
-    const auto outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
+    auto outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
+    if (other_indirect) outdated = State::Outdated::film;
     if (outdated != State::Outdated::nothing) s.begin_film(begun, outdated);
     return outdated != State::Outdated::nothing;
 }
 
 void Renderer::begin_image(const Scene& scene, const RenderSettings& settings, LightGroupsPtr groups) {
     const auto begun = State::Clock::now();
-    const auto outdated = state_->compile(scene, effective_settings(settings), std::move(groups));
+    state_->max_bounces = settings.max_bounces;
+    const auto outdated = state_->compile(scene, state_->kernel_settings_for(settings), std::move(groups));
     state_->begin_film(begun, outdated);
 }
 

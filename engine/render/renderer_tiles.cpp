@@ -38,6 +38,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, u
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(max_samples, run.count - done));
         kernel_for(tables).render(context, job, tile);
+        if (indirect) add_indirect(job, tile, worker);
         if (pixels) refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
         StageTimer timer(tile.stages);
         const CatcherColumns* shadows = shadows_of(context, job, worker);
@@ -210,6 +211,7 @@ bool Renderer::decide(const std::function<bool()>& wanted) { return state_->deci
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
+    if (!s.prepare_indirect(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
     if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
         if (!s.decide(wanted)) return false;

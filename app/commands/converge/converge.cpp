@@ -62,7 +62,7 @@ Result<Plan> plan_of(const ConvergeCommand& c) {
         if (!variant) return variant.error();
         input.variants.push_back(*std::move(variant));
     }
-    if (input.variants.empty()) input.variants.push_back({"as given", "", plan.base});
+    if (input.variants.empty()) input.variants.push_back({"as given", "", plan.base, options.integrator});
     for (size_t i = 0; i < input.variants.size(); ++i)
         for (size_t j = 0; j < i; ++j)
             if (input.variants[i].name == input.variants[j].name)
@@ -186,13 +186,15 @@ void add_converge_command(CLI::App& app, std::function<int()>& run) {
         ->type_name("'NAME: OPTIONS'")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    sub->add_option("--preset", command->preset, "Settings to compare: roulette, strategies, bounces, samplers or caustics")
+    sub->add_option("--preset", command->preset,
+                    "Settings to compare: roulette, strategies, bounces, samplers, caustics or tricks (biased integrators)")
         ->type_name("NAME");
     sub->add_option("--repeats", command->repeats, "Independent repeats, each with its own seed [4]")
         ->check(CLI::Range(1, 1000))
         ->type_name("N");
     sub->add_option("--reference", command->reference, "Reference EXR [rendered and cached]")->type_name("FILE");
     add_render_options(*sub, command->options);
+    add_integrator_option(*sub, command->options);
     add_common_options(*sub, command->common);
     sub->callback([command, &run] { run = [command] { return run_converge_command(*command); }; });
 }

@@ -26,7 +26,7 @@ struct Runner {
     void restart(const Scene& scene, RenderSettings settings, uint32_t seed) {
         settings.seed = seed;
         renderer->update(scene, settings);
-        // Warm-up: allocations on first use are not part of the time.
+        // Warm-up: allocations on first use are not part of the time. What a biased integrator prepares is, since clear() discards it.
         renderer->render(0, 1);
         renderer->clear();
         seconds = 0;
@@ -121,8 +121,9 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
     ConvergeResult result;
     std::vector<Runner> runners(input.variants.size());
     for (const Variant& v : input.variants) result.variants.push_back({v, {}, {}, {}, {}, {}, {}, {}});
-    for (Runner& r : runners)
-        r.renderer = std::make_unique<Renderer>(RendererOptions{.threads = input.threads, .low_priority = false, .planes = {}});
+    for (size_t v = 0; v < runners.size(); ++v)
+        runners[v].renderer = std::make_unique<Renderer>(
+            RendererOptions{.threads = input.threads, .low_priority = false, .planes = {}, .integrator = input.variants[v].integrator});
     const double reference_mse = mean_square_error(reference);
 
     for (int repeat = 0; repeat < input.repeats && !interrupted; ++repeat) {
@@ -150,7 +151,8 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
     result.partial = interrupted;
     for (VariantResult& v : result.variants) {
         conclude(v, reference);
-        if (v.bias.biased && input.whole_paths) v.bias_by_bounce = explain(input, v.variant.settings, interrupted);
+        const bool path_traced = v.variant.integrator.kind == BiasedIntegrator::Kind::none;
+        if (v.bias.biased && input.whole_paths && path_traced) v.bias_by_bounce = explain(input, v.variant.settings, interrupted);
     }
     return result;
 }

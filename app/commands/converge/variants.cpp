@@ -26,12 +26,15 @@ constexpr const char* samplers[]{"random numbers: --sampler random", "Sobol poin
 constexpr const char* caustics[]{"without: --caustics off", "path guiding: --caustics guiding", "light paths: --caustics light-paths",
                                  "manifold sampling: --caustics manifold", "all (auto): --caustics auto"};
 
+constexpr const char* tricks[]{"path tracing: --integrator path", "ambient light and occlusion: --integrator ambient",
+                               "irradiance cache: --integrator irradiance-cache", "light probes: --integrator light-probes"};
+
 struct Preset {
     const char* name;
     std::span<const char* const> variants;
 };
-constexpr Preset presets[]{
-    {"roulette", roulette}, {"strategies", strategies}, {"bounces", bounces}, {"samplers", samplers}, {"caustics", caustics}};
+constexpr Preset presets[]{{"roulette", roulette}, {"strategies", strategies}, {"bounces", bounces},
+                           {"samplers", samplers}, {"caustics", caustics},     {"tricks", tricks}};
 
 std::string trimmed(const std::string& text) {
     const size_t first = text.find_first_not_of(" \t");
@@ -66,6 +69,7 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
     CLI::App app;
     app.set_help_flag();
     add_render_options(app, options);
+    add_integrator_option(app, options);
     try {
         app.parse(variant.options);
     } catch (const CLI::ParseError& error) { return Error{.what = fmt::format("variant \"{}\": {}", variant.name, error.what())}; }
@@ -74,6 +78,7 @@ Result<Variant> parse_variant(const std::string& text, const RenderOptions& base
     const Result<RenderSettings> settings = settings_of(options);
     if (!settings) return Error{.what = fmt::format("variant \"{}\": {}", variant.name, settings.error().text())};
     variant.settings = *settings;
+    variant.integrator = options.integrator;
     return variant;
 }
 

@@ -12,13 +12,14 @@ struct Variant {
     std::string name;
     std::string options; // as typed, for the report
     RenderSettings settings;
+    BiasedIntegrator integrator = {};
 };
 
 // Parses "NAME: OPTIONS" with options of `render`, on top of `base`. Errors: no name, invalid options, or options that all
 // variants must share (image and stop rules).
 Result<Variant> parse_variant(const std::string& text, const RenderOptions& base);
 
-// roulette, strategies, bounces, samplers, caustics. Errors: unknown preset.
+// roulette, strategies, bounces, samplers, caustics, tricks. Errors: unknown preset.
 Result<std::vector<Variant>> preset_variants(const std::string& preset, const RenderOptions& base);
 
 } // namespace blush

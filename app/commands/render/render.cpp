@@ -89,6 +89,11 @@ Result<Plan> plan_of(const RenderCommand& c) {
         if (!layers) return layers.error();
         plan.layers = *layers;
     }
+    const bool biased = c.options.integrator.kind != BiasedIntegrator::Kind::none;
+    const Layers& l = plan.layers;
+    if (biased && (l.film || l.groups || l.bounces > 0 || l.strategies || !c.begun.empty() || c.options.samples_given || !c.pixel.empty()))
+        return Error{.what = "--integrator excludes --continue, --samples, --pixel and the layers film, groups, bounces and strategies"};
+    if (biased && plan.settings.clamp.limit > 0) return Error{.what = "--integrator and --clamp exclude each other"};
     if (!c.pixel.empty()) {
         const Result<PixelRequest> pixel = parse_pixel(c.pixel, plan.settings);
         if (!pixel) return pixel.error();
@@ -129,8 +134,15 @@ std::string loop_note(const LoopProgress& p) {
     return note;
 }
 
+// "irradiance-cache,a=0.2,rays=256: biased, ..."; empty for path tracing.
+std::string biased_text(const BiasedIntegrator& integrator) {
+    if (integrator.kind == BiasedIntegrator::Kind::none) return {};
+    return fmt::format("{}: biased, {}", to_string(integrator), bias_of(integrator.kind));
+}
+
 SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const Rendered& rendered) {
     SnapshotMetadata m = image_metadata(c.scene, scene_hash(loaded.imported), loaded, plan.settings, rendered.loop);
+    m.biased = biased_text(c.options.integrator);
     if (rendered.denoised) m.denoised = denoised_by(*rendered.denoised);
     if (rendered.film) m.film = film_json(*rendered.film);
     return m;
@@ -162,6 +174,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"rmse_high", if_known(error.rmse_known, error.rmse_high)},
                      {"misses_highlights", error.misses_highlights},
                      {"missing_light", if_known(!r.frame.missing_light.empty(), r.frame.missing_light)}};
+    if (const std::string biased = biased_text(c.options.integrator); !biased.empty()) json["biased"] = biased;
     json["health"] = health_json(r.frame.health);
     json["warnings"] = OrderedJson::array();
     for (const Diagnostic& d : rendered.warnings) json["warnings"].push_back(Error{{}, d.what, d.where}.text());
@@ -191,6 +204,8 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     if (!r.frame.missing_light.empty()) fmt::print(", some light cannot be found");
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");
+    if (const std::string biased = biased_text(c.options.integrator); !biased.empty())
+        fmt::print("{}; the error is that of noise alone\n", biased);
     if (r.frame.clamp.samples > 0)
         fmt::print("clamping removed {:.3g} % of the light, from {} samples\n", 100 * r.frame.clamp.share, r.frame.clamp.samples);
     if (r.frame.health.dropped() > 0)
@@ -236,6 +251,7 @@ Result<SampleAllocation::Shares> allocation_for(const std::string& file, const L
 Result<Rendered> render_image(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const ColorManagement* color,
                               Denoiser& denoiser, const std::atomic<bool>& interrupted) {
     RendererOptions options{.threads = c.common.threads, .planes = planes_for(c, plan)};
+    options.integrator = c.options.integrator;
     options.is_part = c.options.samples_given || (plan.begun && plan.begun->film.first_sample > 0);
     if (!c.options.allocation.empty()) {
         Result<SampleAllocation::Shares> shares = allocation_for(c.options.allocation, loaded, plan.settings);
@@ -373,6 +389,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("-o,--output", command->output, "EXR keeps scene-linear values; PNG and JPEG go through the view transform")
         ->type_name("FILE");
     add_render_options(*sub, command->options);
+    add_integrator_option(*sub, command->options);
     sub->add_option("--layers", command->layers,
                     "Additional layers, EXR only: albedo,normal,depth,error,samples,id,groups,bounces[=N],strategies,film (sums, for "
                     "--continue and merge)")

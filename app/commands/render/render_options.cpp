@@ -177,7 +177,7 @@ void add_path_options(CLI::App& app, RenderOptions& o) {
         ->type_name("N|unlimited");
 }
 
-void add_integrator_options(CLI::App& app, RenderOptions& o) {
+void add_estimator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
                "Russian roulette: off, max, luminance, sqrt, constant=P, biased-cut=T [sqrt,start=3]")
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
@@ -242,6 +242,14 @@ void add_probe_options(CLI::App& app, RenderOptions& options) {
     add_path_options(app, options);
 }
 
+void add_integrator_option(CLI::App& app, RenderOptions& o) {
+    add_parsed(
+        app, "--integrator", o.integrator, parse_integrator,
+        "Path tracing or, for comparison, a biased integrator: direct light with ambient light and occlusion, an irradiance cache, or "
+        "light probes [path]")
+        ->type_name("path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N]|light-probes[,grid=N][,rays=N]");
+}
+
 void add_render_options(CLI::App& app, RenderOptions& options) {
     add_size_option(app, options);
     add_region_option(app, options);
@@ -251,7 +259,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
     add_groups_option(app, options);
     add_stop_options(app, options);
     add_path_options(app, options);
-    add_integrator_options(app, options);
+    add_estimator_options(app, options);
     add_view_options(app, options.view);
     add_parsed(app, "--denoise", options.denoise, parse_denoise,
                "Denoise the result: an additional layer \"denoised\" in an EXR; a PNG or JPEG shows the denoised image [off]")

@@ -3,6 +3,7 @@
 
 #include "app/common/scene_overrides.h"
 #include "core/result.h"
+#include "render/biased/biased_integrator.h"
 #include "render/denoise/denoiser.h"
 #include "scene/render_settings.h"
 #include "scene/view_settings.h"
@@ -20,6 +21,7 @@ struct RenderOptions {
     RenderSettings settings = recommended_settings();
     ViewSettings view;
     SceneOverrides overrides;
+    BiasedIntegrator integrator;                    // for comparison
     std::optional<DenoiseQuality> denoise;          // empty: off
     std::optional<PixelRect> region;                // of an image of the requested size; empty: all of it
     std::string allocation;                         // file of adaptive sampling for a part; empty: none
@@ -29,6 +31,8 @@ struct RenderOptions {
 
 // Invalid text ends parsing with CLI::ValidationError.
 void add_render_options(CLI::App& app, RenderOptions& options);
+// Apart, since only commands that compare images take it.
+void add_integrator_option(CLI::App& app, RenderOptions& options);
 // Those of them that say which image it is and what light it has: for commands that render no image but probe places of one.
 void add_probe_options(CLI::App& app, RenderOptions& options);
 // The display options among them: --exposure, --view, --look, --display etc.

@@ -110,6 +110,7 @@ std::map<std::string, std::string> display_metadata(const SnapshotMetadata& meta
                                              {"blush:scene", metadata.scene},
                                              {"blush:spp", std::to_string(metadata.spp)},
                                              {"blush:partial", metadata.partial ? "1" : "0"}};
+    if (!metadata.biased.empty()) texts.emplace("blush:biased", metadata.biased);
     if (!metadata.denoised.empty()) texts.emplace("blush:denoised", metadata.denoised);
     return texts;
 }

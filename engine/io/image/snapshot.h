@@ -28,6 +28,7 @@ struct SnapshotMetadata {
     double seconds = 0;   // render time
     std::string error;    // estimated relative error as text, empty if unknown
     std::string denoised; // how the layer "denoised" was made: network, precision, samples; empty without one
+    std::string biased;   // integrator that is not path tracing, and why it is biased; empty for path tracing
     RenderSettings settings;
     std::string edits;                // scene_edits_json.h, empty if nothing differs from the file
     bool partial = false;             // ended before any stop rule was reached

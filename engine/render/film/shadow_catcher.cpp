@@ -1,5 +1,6 @@
 #include "render/film/shadow_catcher.h"
 
+#include "render/integrator/first_surfaces.h"
 #include "render/integrator/irradiance.h"
 #include "render/integrator/wavefront.h"
 
@@ -9,18 +10,6 @@ namespace blush {
 namespace {
 
 constexpr Features features = all_features;
-
-// Traces camera rays to their first surface, including catchers.
-void trace_camera_rays(const KernelContext& context, TileScratch& tile) {
-    const PathQueue& q = tile.paths[0];
-    const bool blends = context.scene->blends;
-    if (blends)
-        for (int k = 0; k < q.size; ++k) tile.random[k] = opacity_random<float>(q.key[k], q.index[k], 0);
-    const RayArrays rays{
-        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? tile.random.data : nullptr, camera_ray_mask | catcher_ray_mask};
-    HitColumns& h = tile.hits;
-    context.accel->intersect(rays, q.size, true, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
-}
 
 // Queues a shadow ray if a light may reach the surface. Returns its unoccluded luminance.
 float queue_catcher_shadow_ray(const KernelContext& context, const Surface<float>& surface, const Vec3& direction, const Path<float>& path,
@@ -61,7 +50,7 @@ void catch_shadows(KernelContext context, std::span<const uint8_t> is_catcher, c
     TileScratch& tile = scratch.tile;
     CatcherColumns& out = scratch.columns;
     generate_paths<features, float>(context, job, tile);
-    trace_camera_rays(context, tile);
+    trace_first_surfaces(context, camera_ray_mask | catcher_ray_mask, tile);
     const int paths = job.paths();
     std::fill_n(out.caught.data, paths, uint8_t(0));
     std::fill_n(out.unoccluded.data, paths, 0.f);

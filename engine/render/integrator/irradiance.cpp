@@ -75,25 +75,67 @@ void begin_paths_at_meter(const KernelContext& context, const MeterPoint& receiv
     }
 }
 
+namespace {
+
+// Follows the paths in scratch.paths[0]. `after_first` is called when their first surfaces have been shaded, before NEE there.
+template <class AfterFirst> void follow_paths(const KernelContext& context, TileScratch& scratch, const AfterFirst& after_first) {
+    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
+    for (int bounce = 1; now->size > 0 && bounce <= max_path_length; ++bounce) {
+        trace_paths<features, float>(context, scratch, *now, *next, bounce);
+        shade_paths<features, float>(context, scratch, *now, *next, bounce);
+        if (bounce == 1) after_first(*now);
+        connect_paths<features, float>(context, scratch, bounce);
+        std::swap(now, next);
+    }
+}
+
+void clear_radiance(TileScratch& scratch, int samples) {
+    std::fill_n(scratch.r.data, samples, 0.0);
+    std::fill_n(scratch.g.data, samples, 0.0);
+    std::fill_n(scratch.b.data, samples, 0.0);
+}
+
+} // namespace
+
 Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
     context.settings.reuse = {};
     if (context.settings.max_bounces < 1) context.settings.max_bounces = 1;
     samples = std::clamp(samples, 1, max_irradiance_samples);
-    PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
-    std::fill_n(scratch.r.data, samples, 0.0);
-    std::fill_n(scratch.g.data, samples, 0.0);
-    std::fill_n(scratch.b.data, samples, 0.0);
+    clear_radiance(scratch, samples);
     begin_paths_at_meter(context, receiver, replicate, samples, scratch);
     connect_paths<features, float>(context, scratch, 0);
-    for (int bounce = 1; now->size > 0 && bounce <= max_path_length; ++bounce) {
-        trace_paths<features, float>(context, scratch, *now, *next, bounce);
-        shade_paths<features, float>(context, scratch, *now, *next, bounce);
-        connect_paths<features, float>(context, scratch, bounce);
-        std::swap(now, next);
-    }
+    follow_paths(context, scratch, [](const PathQueue&) {});
     Vec3d sum{0, 0, 0};
     for (int i = 0; i < samples; ++i) sum = sum + Vec3d{scratch.r[i], scratch.g[i], scratch.b[i]};
     return sum * (std::numbers::pi / samples);
+}
+
+Vec3d GatheredRays::irradiance() const {
+    Vec3d sum{0, 0, 0};
+    for (const Vec3d& r : radiance) sum = sum + r;
+    return sum * (std::numbers::pi / double(std::max<size_t>(1, radiance.size())));
+}
+
+GatheredRays gather_indirect(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch) {
+    context.settings.reuse = {};
+    samples = std::clamp(samples, 1, max_irradiance_samples);
+    clear_radiance(scratch, samples);
+    begin_paths_at_meter(context, receiver, replicate, samples, scratch);
+    GatheredRays rays;
+    const auto count = size_t(samples);
+    rays.direction.resize(count);
+    rays.distance.assign(count, infinity);
+    for (int i = 0; i < samples; ++i) {
+        const PathQueue& q = scratch.paths[0];
+        rays.direction[size_t(i)] = {q.dx[i], q.dy[i], q.dz[i]};
+    }
+    follow_paths(context, scratch, [&](const PathQueue& now) {
+        for (int k = 0; k < now.size; ++k)
+            if (scratch.hits.geometry[k] >= 0) rays.distance[size_t(now.slot[k])] = scratch.hits.t[k];
+        clear_radiance(scratch, samples); // emission that these rays found is direct light
+    });
+    for (int i = 0; i < samples; ++i) rays.radiance.push_back({scratch.r[i], scratch.g[i], scratch.b[i]});
+    return rays;
 }
 
 } // namespace blush

@@ -7,6 +7,7 @@
 #include "render/kernels/kernel.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace blush {
 
@@ -33,5 +34,16 @@ void begin_paths_at_meter(const KernelContext& context, const MeterPoint& receiv
 // together. Light takes at most settings.max_bounces scatterings including the one of a diffuse surface here; at least one. Call
 // it from within Workers::run or for_each.
 Vec3d estimate_irradiance(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
+
+// Paths from a point: their directions, and an estimate of the indirect radiance along each.
+struct GatheredRays {
+    std::vector<Vec3> direction; // unit, cosine-distributed about the receiver's normal
+    std::vector<Vec3d> radiance; // without emission that the ray itself finds, in nits
+    std::vector<float> distance; // to the first surface in metres; infinite if there is none
+    // pi times the mean radiance, in lux.
+    Vec3d irradiance() const;
+};
+// At most max_irradiance_samples paths, as those of estimate_irradiance() but without light that reaches the receiver directly.
+GatheredRays gather_indirect(KernelContext context, const MeterPoint& receiver, uint32_t replicate, int samples, TileScratch& scratch);
 
 } // namespace blush

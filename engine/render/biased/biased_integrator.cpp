@@ -1,0 +1,93 @@
+#include "render/biased/biased_integrator.h"
+
+#include "core/text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace blush {
+namespace {
+
+using Kind = BiasedIntegrator::Kind;
+
+struct Name {
+    Kind kind;
+    std::string_view name, bias;
+};
+constexpr Name names[]{
+    {Kind::none, "path", "unbiased"},
+    {Kind::ambient, "ambient", "indirect light is the same from all sides"},
+    {Kind::irradiance_cache, "irradiance-cache", "indirect light is interpolated between records"},
+    {Kind::light_probes, "light-probes", "indirect light is interpolated between probes, which see through walls"},
+};
+
+const Name& name_of(Kind kind) {
+    for (const Name& name : names)
+        if (name.kind == kind) return name;
+    return names[0];
+}
+
+constexpr int max_rays = 1024, max_grid = 64;
+
+bool parse_color(std::string_view text, BiasedIntegrator& to) {
+    if (text == "auto") return to.automatic_color = true;
+    const std::vector<std::string_view> parts = split(text, ':');
+    Vec3& c = to.color;
+    to.automatic_color = false;
+    return parts.size() == 3 && parse_number(parts[0], c.x) && parse_number(parts[1], c.y) && parse_number(parts[2], c.z) && c.x >= 0 &&
+           c.y >= 0 && c.z >= 0 && std::isfinite(c.x + c.y + c.z);
+}
+
+bool parse_knob(std::string_view name, std::string_view value, BiasedIntegrator& to) {
+    if (to.kind == Kind::ambient && name == "color") return parse_color(value, to);
+    if (to.kind == Kind::ambient && name == "distance")
+        return parse_number(value, to.distance) && to.distance > 0 && std::isfinite(to.distance);
+    if (to.kind == Kind::irradiance_cache && name == "a") return parse_number(value, to.accuracy) && to.accuracy >= 0 && to.accuracy <= 1;
+    if (to.kind == Kind::light_probes && name == "grid") return parse_number(value, to.grid) && to.grid >= 1 && to.grid <= max_grid;
+    if (to.kind != Kind::none && to.kind != Kind::ambient && name == "rays")
+        return parse_number(value, to.rays) && to.rays >= 1 && to.rays <= max_rays;
+    return false;
+}
+
+} // namespace
+
+Result<BiasedIntegrator> parse_integrator(std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    BiasedIntegrator integrator;
+    bool known = false;
+    for (const Name& name : names) {
+        if (name.name != parts[0]) continue;
+        integrator.kind = name.kind;
+        known = true;
+    }
+    if (!known)
+        return Error{.what = fmt::format("an integrator must be path, ambient, irradiance-cache or light-probes, not \"{}\"", parts[0])};
+    for (size_t i = 1; i < parts.size(); ++i) {
+        const size_t equals = parts[i].find('=');
+        if (equals == std::string_view::npos || !parse_knob(parts[i].substr(0, equals), parts[i].substr(equals + 1), integrator))
+            return Error{.what = fmt::format("integrator {}: \"{}\" is not an option, or out of range (ambient: color=R:G:B or auto, "
+                                             "distance=M; irradiance-cache: a=0..1, rays=1..1024; light-probes: grid=1..64, rays=1..1024)",
+                                             parts[0], parts[i])};
+    }
+    return integrator;
+}
+
+std::string to_string(const BiasedIntegrator& i) {
+    const std::string name(name_of(i.kind).name);
+    const int rays = i.rays > 0 ? i.rays : i.default_rays();
+    switch (i.kind) {
+    case Kind::none: break;
+    case Kind::ambient:
+        return i.automatic_color ? fmt::format("{},color=auto,distance={}", name, i.distance)
+                                 : fmt::format("{},color={}:{}:{},distance={}", name, i.color.x, i.color.y, i.color.z, i.distance);
+    case Kind::irradiance_cache: return fmt::format("{},a={},rays={}", name, i.accuracy, rays);
+    case Kind::light_probes: return fmt::format("{},grid={},rays={}", name, i.grid, rays);
+    }
+    return name;
+}
+
+std::string_view bias_of(BiasedIntegrator::Kind kind) { return name_of(kind).bias; }
+
+} // namespace blush

@@ -1,0 +1,40 @@
+// Biased integrators, for comparison with path tracing: direct light as the path tracer finds it, and a cheap stand-in for the indirect
+// light that diffuse surfaces reflect. Never a default; images say "biased".
+#pragma once
+
+#include "core/result.h"
+#include "core/vec.h"
+
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+struct BiasedIntegrator {
+    enum class Kind {
+        none,             // path tracing
+        ambient,          // the same light from all sides, times ambient occlusion
+        irradiance_cache, // Ward, Rubinstein and Clear 1988
+        light_probes,     // a grid of spherical harmonics of 2nd order
+    };
+    Kind kind = Kind::none;
+    // ambient: its radiance in nits. Automatic: the mean over the picture of what the path tracer finds.
+    bool automatic_color = true;
+    Vec3 color{0, 0, 0};
+    float distance = 1; // ambient: occluders count up to this many metres
+    // irradiance_cache: largest error of a record, as Ward's a. 0 stores no record: then it is unbiased.
+    float accuracy = 0.2f;
+    int rays = 0;  // paths per record or probe; 0: 256 per record, 192 per probe
+    int grid = 12; // light_probes: cells along each axis of the scene's bounds
+
+    int default_rays() const { return kind == Kind::light_probes ? 192 : 256; }
+    bool operator==(const BiasedIntegrator&) const = default;
+};
+
+// "path", "ambient,color=R:G:B|auto,distance=M", "irradiance-cache,a=A,rays=N", "light-probes,grid=N,rays=N".
+Result<BiasedIntegrator> parse_integrator(std::string_view text);
+std::string to_string(const BiasedIntegrator& integrator);
+// Why its images are biased, for people.
+std::string_view bias_of(BiasedIntegrator::Kind kind);
+
+} // namespace blush
