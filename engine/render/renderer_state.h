@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/ticks.h"
-#include "render/biased/indirect_light.h"
+#include "render/biased/make_indirect_light.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/error/small_highlights.h"

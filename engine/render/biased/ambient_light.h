@@ -2,6 +2,7 @@
 // model").
 #pragma once
 
+#include "render/biased/biased_integrator.h"
 #include "render/biased/indirect_light.h"
 
 namespace blush {

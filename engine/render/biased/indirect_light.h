@@ -2,10 +2,9 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "core/sampler.h"
-#include "render/biased/biased_integrator.h"
-#include "render/integrator/irradiance.h"
+#include "render/biased/diffuse_points.h"
 #include "render/kernels/kernel.h"
+#include "shading/caustic_guiding.h"
 
 #include <cstddef>
 #include <functional>
@@ -14,14 +13,6 @@
 #include <vector>
 
 namespace blush {
-
-// The first surface of a camera path, if it is diffuse.
-struct DiffusePoint {
-    MeterPoint receiver;
-    Vec3 reflects; // radiance towards the camera per irradiance: throughput times albedo / pi, per sr
-    Sampler<float> sampler;
-    int slot = 0; // of the tile
-};
 
 // What preparation needs of the renderer.
 struct PreparationContext {
@@ -44,14 +35,5 @@ public:
                             std::span<Vec3d> out) const = 0;
     virtual size_t memory_bytes() const = 0;
 };
-// Null for path tracing.
-std::unique_ptr<IndirectLight> make_indirect_light(const BiasedIntegrator& integrator);
-
-// The diffuse points among the first hits of a tile's paths. Overwrites `scratch`.
-void find_diffuse_points(const KernelContext& context, const TileJob& job, TileScratch& scratch, std::vector<DiffusePoint>& points);
-
-// Adds what the tile's diffuse surfaces reflect. `context` has all bounces; `points` and `scratch` are memory.
-void add_indirect_light(const KernelContext& context, const IndirectLight& light, const TileJob& job, TileScratch& tile,
-                        TileScratch& scratch);
 
 } // namespace blush

@@ -3,6 +3,7 @@
 // sample, level by level over the picture, so that they do not depend on threads; where none is near, paths are traced.
 #pragma once
 
+#include "render/biased/biased_integrator.h"
 #include "render/biased/indirect_light.h"
 
 #include <array>

@@ -3,6 +3,7 @@
 // between them and a surface, nor of objects that move after they were made.
 #pragma once
 
+#include "render/biased/biased_integrator.h"
 #include "render/biased/indirect_light.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "render/film/shadow_catcher.h"
 
-#include "render/integrator/first_surfaces.h"
+#include "render/film/first_surfaces.h"
 #include "render/integrator/irradiance.h"
 #include "render/integrator/wavefront.h"
 

@@ -46,12 +46,25 @@ TEST(Variants, AreANameAndTheOptionsOfRender) {
 }
 
 TEST(Variants, PresetsAllParse) {
-    for (const char* preset : {"roulette", "strategies", "bounces", "samplers", "caustics"}) {
+    for (const char* preset : {"roulette", "strategies", "bounces", "samplers", "caustics", "tricks"}) {
         const auto variants = preset_variants(preset, {});
         ASSERT_TRUE(variants) << variants.error().text();
         EXPECT_GE(variants->size(), 2u);
     }
     EXPECT_FALSE(preset_variants("all", {}));
+}
+
+TEST_F(Converge, FindsTheBiasOfIntegrators) {
+    const Finished f = run_converge({"--size", "48x48", "--spp", "64", "--repeats", "1", "--adaptive", "off", "--reuse", "off", "--variant",
+                                     "paths: --integrator path", "--variant", "ambient: --integrator ambient", "--variant",
+                                     "probes: --integrator light-probes"});
+    ASSERT_EQ(f.exit_code, 0) << f.err;
+    const auto j = json();
+    ASSERT_EQ(j["variants"].size(), 3u);
+    EXPECT_EQ(j["variants"][0]["bias"]["verdict"], "unbiased-within-noise");
+    EXPECT_EQ(j["variants"][1]["bias"]["verdict"], "biased");
+    EXPECT_EQ(j["variants"][2]["bias"]["verdict"], "biased");
+    EXPECT_TRUE(j["variants"][1]["bias"]["bounces"].empty());
 }
 
 TEST_F(Converge, WritesCsvJsonAndASelfContainedReport) {

@@ -34,6 +34,27 @@ std::vector<float> beauty(const LayeredImage& image) {
     return values;
 }
 
+TEST(Render, SaysThatAnIntegratorIsBiased) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> ambient = with(tiny("cornell", folder / "out.exr"), {"--integrator", "ambient,distance=0.5"});
+    const Finished finished = test::blush(ambient);
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_NE(finished.out.find("ambient,color=auto,distance=0.5: biased"), std::string::npos) << finished.out;
+    const Result<LayeredImage> image = read_layers(folder / "out.exr");
+    ASSERT_TRUE(image) << image.error().text();
+    const Result<SnapshotMetadata> metadata = read_snapshot_metadata(image->metadata);
+    ASSERT_TRUE(metadata) << metadata.error().text();
+    EXPECT_TRUE(metadata->biased.starts_with("ambient,color=auto,distance=0.5: biased")) << metadata->biased;
+    EXPECT_TRUE(blush_json(ambient)["biased"].get<std::string>().starts_with("ambient"));
+    EXPECT_FALSE(blush_json(tiny("cornell", folder / "path.exr")).contains("biased"));
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+             {"--layers", "film"}, {"--layers", "bounces"}, {"--clamp", "10"}, {"--samples", "0:2"}, {"--pixel", "1,1"}})
+        EXPECT_EQ(test::blush(with({"render", scene_file("cornell"), "-o", folder / "no.exr", "--integrator", "ambient"}, more)).exit_code,
+                  2)
+            << more[0];
+    EXPECT_EQ(test::blush(with(tiny("cornell", folder / "no.exr"), {"--integrator", "photons"})).exit_code, 2);
+}
+
 TEST(Render, WritesAnExrWithItsMetadata) {
     const TemporaryFolder folder;
     const Finished finished = test::blush(with(tiny("cornell", folder / "out.exr"), {"--seed", "5"}));

@@ -1,4 +1,4 @@
-#include "render/integrator/first_surfaces.h"
+#include "render/film/first_surfaces.h"
 
 #include "render/integrator/wavefront.h"
 
