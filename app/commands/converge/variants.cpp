@@ -27,7 +27,8 @@ constexpr const char* caustics[]{"without: --caustics off", "path guiding: --cau
                                  "manifold sampling: --caustics manifold", "all (auto): --caustics auto"};
 
 constexpr const char* tricks[]{"path tracing: --integrator path", "ambient light and occlusion: --integrator ambient",
-                               "irradiance cache: --integrator irradiance-cache", "light probes: --integrator light-probes"};
+                               "irradiance cache: --integrator irradiance-cache", "light probes: --integrator light-probes",
+                               "photon map: --integrator photon-map"};
 
 struct Preset {
     const char* name;

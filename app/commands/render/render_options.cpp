@@ -243,11 +243,11 @@ void add_probe_options(CLI::App& app, RenderOptions& options) {
 }
 
 void add_integrator_option(CLI::App& app, RenderOptions& o) {
-    add_parsed(
-        app, "--integrator", o.integrator, parse_integrator,
-        "Path tracing or, for comparison, a biased integrator: direct light with ambient light and occlusion, an irradiance cache, or "
-        "light probes [path]")
-        ->type_name("path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N]|light-probes[,grid=N][,rays=N]");
+    add_parsed(app, "--integrator", o.integrator, parse_integrator,
+               "Path tracing or, for comparison, a biased integrator: direct light with ambient light and occlusion, an irradiance cache, "
+               "light probes or a photon map [path]")
+        ->type_name("path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N]|light-probes[,grid=N][,rays=N]|"
+                    "photon-map[,photons=N][,radius=M|auto]");
 }
 
 void add_render_options(CLI::App& app, RenderOptions& options) {

@@ -20,6 +20,7 @@ constexpr Name names[]{
     {Kind::none, "path", "unbiased"},
     {Kind::ambient, "ambient", "indirect light is the same from all sides"},
     {Kind::irradiance_cache, "irradiance-cache", "indirect light is interpolated between records"},
+    {Kind::photon_map, "photon-map", "photons are counted over disks of a size"},
     {Kind::light_probes, "light-probes", "indirect light is interpolated between probes, which see through walls"},
 };
 
@@ -29,7 +30,7 @@ const Name& name_of(Kind kind) {
     return names[0];
 }
 
-constexpr int max_rays = 1024, max_grid = 64;
+constexpr int max_rays = 1024, max_grid = 64, max_photons = 100000000;
 
 bool parse_color(std::string_view text, BiasedIntegrator& to) {
     if (text == "auto") return to.automatic_color = true;
@@ -46,7 +47,13 @@ bool parse_knob(std::string_view name, std::string_view value, BiasedIntegrator&
         return parse_number(value, to.distance) && to.distance > 0 && std::isfinite(to.distance);
     if (to.kind == Kind::irradiance_cache && name == "a") return parse_number(value, to.accuracy) && to.accuracy >= 0 && to.accuracy <= 1;
     if (to.kind == Kind::light_probes && name == "grid") return parse_number(value, to.grid) && to.grid >= 1 && to.grid <= max_grid;
-    if (to.kind != Kind::none && to.kind != Kind::ambient && name == "rays")
+    if (to.kind == Kind::photon_map && name == "photons")
+        return parse_number(value, to.photons) && to.photons >= 1 && to.photons <= max_photons;
+    if (to.kind == Kind::photon_map && name == "radius") {
+        to.radius = 0;
+        return value == "auto" || (parse_number(value, to.radius) && to.radius > 0 && std::isfinite(to.radius));
+    }
+    if ((to.kind == Kind::irradiance_cache || to.kind == Kind::light_probes) && name == "rays")
         return parse_number(value, to.rays) && to.rays >= 1 && to.rays <= max_rays;
     return false;
 }
@@ -63,12 +70,15 @@ Result<BiasedIntegrator> parse_integrator(std::string_view text) {
         known = true;
     }
     if (!known)
-        return Error{.what = fmt::format("an integrator must be path, ambient, irradiance-cache or light-probes, not \"{}\"", parts[0])};
+        return Error{
+            .what = fmt::format("an integrator must be path, ambient, irradiance-cache, light-probes or photon-map, not \"{}\"", parts[0])};
     for (size_t i = 1; i < parts.size(); ++i) {
         const size_t equals = parts[i].find('=');
         if (equals == std::string_view::npos || !parse_knob(parts[i].substr(0, equals), parts[i].substr(equals + 1), integrator))
             return Error{.what = fmt::format("integrator {}: \"{}\" is not an option, or out of range (ambient: color=R:G:B or auto, "
-                                             "distance=M; irradiance-cache: a=0..1, rays=1..1024; light-probes: grid=1..64, rays=1..1024)",
+                                             "distance=M; irradiance-cache: a=0..1, rays=1..1024; light-probes: grid=1..64, rays=1..1024; "
+                                             "photon-map: photons=1..1e8, "
+                                             "radius=M or auto)",
                                              parts[0], parts[i])};
     }
     return integrator;
@@ -83,6 +93,9 @@ std::string to_string(const BiasedIntegrator& i) {
         return i.automatic_color ? fmt::format("{},color=auto,distance={}", name, i.distance)
                                  : fmt::format("{},color={}:{}:{},distance={}", name, i.color.x, i.color.y, i.color.z, i.distance);
     case Kind::irradiance_cache: return fmt::format("{},a={},rays={}", name, i.accuracy, rays);
+    case Kind::photon_map:
+        return i.radius > 0 ? fmt::format("{},photons={},radius={}", name, i.photons, i.radius)
+                            : fmt::format("{},photons={},radius=auto", name, i.photons);
     case Kind::light_probes: return fmt::format("{},grid={},rays={}", name, i.grid, rays);
     }
     return name;

@@ -1,5 +1,6 @@
 #include "render/biased/irradiance_cache.h"
 
+#include "render/biased/cells.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -12,14 +13,6 @@ namespace {
 constexpr int first_stride = 32; // pixels between the points of the first level
 constexpr int fallback_rays = 16;
 constexpr uint32_t fallback_replicate = 0x80000000u; // apart from those of records
-
-struct CellIndex {
-    int64_t x, y, z;
-    uint64_t key() const { return uint64_t(x & 0x1fffff) | uint64_t(y & 0x1fffff) << 21 | uint64_t(z & 0x1fffff) << 42; }
-};
-CellIndex cell_of(const Vec3d& at, double size) {
-    return {int64_t(std::floor(at.x / size)), int64_t(std::floor(at.y / size)), int64_t(std::floor(at.z / size))};
-}
 
 } // namespace
 
@@ -39,19 +32,16 @@ IrradianceCache::Interpolated IrradianceCache::interpolate(const DiffusePoint& p
     const Vec3d at = to_double(point.receiver.position), normal = to_double(point.receiver.normal);
     for (const auto& [exponent, cells] : levels_) {
         const double size = std::ldexp(1.0, exponent);
-        // The corner of the eight cells around the point.
-        const CellIndex first = cell_of(at - Vec3d{size, size, size} * 0.5, size);
-        for (int corner = 0; corner < 8; ++corner) {
-            const CellIndex cell{first.x + (corner & 1), first.y + (corner >> 1 & 1), first.z + (corner >> 2)};
-            const auto found = cells.find(cell.key());
-            if (found == cells.end()) continue;
+        for_each_cell_near(at, size, [&](uint64_t key) {
+            const auto found = cells.find(key);
+            if (found == cells.end()) return;
             for (const uint32_t i : found->second) {
                 const double weight = records_[i].weight(at, normal);
                 if (!(weight * double(options_.accuracy) > 1)) continue;
                 result.weight += weight;
                 result.sum = result.sum + records_[i].irradiance(normal) * weight;
             }
-        }
+        });
     }
     return result;
 }

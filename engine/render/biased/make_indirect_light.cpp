@@ -3,6 +3,7 @@
 #include "render/biased/ambient_light.h"
 #include "render/biased/irradiance_cache.h"
 #include "render/biased/light_probes.h"
+#include "render/biased/photon_map.h"
 #include "scene/affine.h"
 
 namespace blush {
@@ -13,6 +14,7 @@ std::unique_ptr<IndirectLight> make_indirect_light(const BiasedIntegrator& integ
     case BiasedIntegrator::Kind::ambient: return std::make_unique<AmbientLight>(integrator);
     case BiasedIntegrator::Kind::irradiance_cache: return std::make_unique<IrradianceCache>(integrator);
     case BiasedIntegrator::Kind::light_probes: return std::make_unique<LightProbes>(integrator);
+    case BiasedIntegrator::Kind::photon_map: return std::make_unique<PhotonMap>(integrator);
     }
     return nullptr;
 }

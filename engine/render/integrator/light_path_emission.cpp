@@ -128,6 +128,26 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
     }
     if (!(aimed > 0 && all > 0)) return;
     for (size_t i = 0; i < flux.size(); ++i) flux[i] *= i % columns + 1 < columns ? (1 - even_share) / aimed : even_share / all;
+    set_chances(flux);
+}
+
+LightPathEmission LightPathEmission::of_all_lights(const SceneTables& tables, const CasterSphere& scene) {
+    LightPathEmission emission;
+    emission.scene_ = scene;
+    emission.lights_ = tables.lights.count;
+    const double sky = integral_of_environment(tables);
+    std::vector<double> flux;
+    for (int32_t i = 0; i < tables.lights.count; ++i) {
+        const LightRecord& light = tables.lights.lights[i];
+        const double f = LightKind(light.kind) == LightKind::point ? 4 * double(pi) * double(luminance(light.emission))
+                                                                   : flux_of_pair(light, scene, sky);
+        flux.push_back(std::isfinite(f) ? f : 0);
+    }
+    if (std::ranges::any_of(flux, [](double f) { return f > 0; })) emission.set_chances(flux);
+    return emission;
+}
+
+void LightPathEmission::set_chances(const std::vector<double>& flux) {
     thresholds_ = make_thresholds(flux);
     for (size_t i = 0; i < flux.size(); ++i)
         // The last pair is drawn at least once in 2^32, whatever its flux.

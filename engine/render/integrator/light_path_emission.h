@@ -21,6 +21,9 @@ public:
     // pairs.
     LightPathEmission(const SceneTables& tables, const CasterSphere& scene);
 
+    // For all lights, also those without size, towards the whole scene: for photon maps (photon_map.h).
+    static LightPathEmission of_all_lights(const SceneTables& tables, const CasterSphere& scene);
+
     bool empty() const { return chances_.empty(); }
     // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
     EmissionTables tables(float paths) const;
@@ -29,6 +32,9 @@ public:
     size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }
 
 private:
+    // `flux`: by pair, in any unit.
+    void set_chances(const std::vector<double>& flux);
+
     std::vector<float> chances_; // EmissionTables::chances
     std::vector<uint32_t> thresholds_;
     CausticCasterTables casters_;

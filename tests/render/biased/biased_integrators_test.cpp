@@ -64,6 +64,57 @@ TEST(IrradianceCache, WithoutRecordsIsUnbiased) {
     EXPECT_FALSE(test.biased) << test.worst.percent() << " % at z " << test.worst.z();
 }
 
+// The middle of a wall, far from the edges, where disks leave the surface. Images of several seeds, with records and photons of their own.
+Measured wall(const Scene& room, const std::string& text) {
+    BlockMoments moments;
+    for (uint32_t seed = 0; seed < 16; ++seed) {
+        RenderSettings settings = settings_for(8, 8, 8);
+        settings.seed = seed;
+        const Measured whole = image_of(*rendered(room, settings, text)).whole();
+        moments.add({&whole, 1});
+    }
+    return moments.measured()[0];
+}
+
+TEST(PhotonMap, IsRightInTheMiddleOfGlowingWalls) {
+    Scene room = glowing_room();
+    room.view = looking({0, 0, 0.9f}, {0, 0, -1}, 0.3f);
+    EXPECT_TRUE(is_mean(wall(room, "photon-map,photons=20000,radius=0.2"), 2));
+}
+
+// Lights without size, and the sky through a window, send photons, too.
+TEST(PhotonMap, AgreesWithPathTracingForEachKindOfLight) {
+    Scene room;
+    place(room, cube(true), lambert(0.7f));
+    room.view = looking({0, 0, 0.9f}, {0, 0, -1}, 0.3f);
+    Scene spot = room, bulb = room, window;
+    place_light(spot, {.kind = Light::Kind::spot, .intensity = 5}, aimed({0, 0.5f, 0}, {0, -1, 0}));
+    place_light(bulb, {.kind = Light::Kind::sphere, .intensity = 5, .radius = 0.1f}, at({0.5f, 0.5f, 0.5f}));
+    place(window, floor_quad(1, -0.5f), lambert(0.7f));
+    place(window, ceiling_quad(1, 0.5f), lambert(0.7f));
+    constant_world(window, 1);
+    window.view = looking({0, 0, 0}, {0, -0.5f, 0.001f}, 0.3f);
+    for (const auto& [name, scene] : {std::pair{"spot", &spot}, {"bulb", &bulb}, {"window", &window}})
+        EXPECT_TRUE(same_mean(wall(*scene, "photon-map,photons=50000,radius=0.1"), wall(*scene, "path"), sidak(significance, 3))) << name;
+}
+
+// Noise of the map alone: the direct light is the same.
+TEST(PhotonMap, ErrorFallsWithTheNumberOfPhotons) {
+    Scene room = glowing_room();
+    room.view = looking({0, 0, 0.9f}, {0, 0, -1}, 0.3f);
+    const RenderSettings settings = settings_for(8, 8, 4);
+    const Frame exact = frame_of(room, settings, "photon-map,photons=3000000,radius=0.1");
+    std::vector<double> photons, error;
+    for (const int n : {1000, 4000, 16000, 64000}) {
+        photons.push_back(n);
+        error.push_back(rms_difference(frame_of(room, settings, "photon-map,radius=0.1,photons=" + std::to_string(n)), exact));
+    }
+    const PowerFit fitted = fit_power(photons, error);
+    EXPECT_LT(fitted.slope.low, -0.5) << fitted.slope.value;
+    EXPECT_GT(fitted.slope.high, -0.5) << fitted.slope.value;
+    EXPECT_LT(fitted.slope.high, 0) << fitted.slope.value;
+}
+
 // The direct light of images with the same seed is the same, so differences are those of indirect light.
 TEST(IrradianceCache, ErrorFallsWithTheReachOfItsRecords) {
     const Scene scene = shipped_scene("cornell");
@@ -86,14 +137,14 @@ TEST(BiasedIntegrators, AreCaughtAsBiased) {
     settings.seed = 0;
     settings.spp = 128;
     EXPECT_FALSE(test_bias(measured_image(*rendered(scene, settings, "path")), reference).biased);
-    for (const char* text : {"ambient", "light-probes", "irradiance-cache"})
+    for (const char* text : {"ambient", "light-probes", "irradiance-cache", "photon-map"})
         EXPECT_TRUE(test_bias(measured_image(*rendered(scene, settings, text)), reference).biased) << text;
 }
 
 TEST(BiasedIntegrators, DoNotDependOnThreads) {
     const Scene scene = shipped_scene("card-and-mug");
     const RenderSettings settings = settings_for(40, 30, 2);
-    for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16"})
+    for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16", "photon-map,photons=10000"})
         EXPECT_EQ(frame_of(scene, settings, text, 1).rgba, frame_of(scene, settings, text, 2).rgba) << text;
 }
 
@@ -101,7 +152,7 @@ TEST(BiasedIntegrators, FollowTheLimitOfBounces) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(16, 16, 2);
     settings.max_bounces = 1;
-    for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16"})
+    for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16", "photon-map,photons=10000"})
         EXPECT_EQ(frame_of(scene, settings, text).rgba, frame_of(scene, settings, "path").rgba) << text;
     // The same renderer after an edit of the limit alone.
     const auto renderer = rendered(scene, settings, "irradiance-cache,rays=16");
@@ -163,12 +214,14 @@ TEST(LightProbes, EvenRadianceGivesPiTimesIt) {
 }
 
 TEST(BiasedIntegrators, AreReadAndWritten) {
-    for (const char* text : {"path", "ambient,color=auto,distance=1", "ambient,color=0.1:0.2:0.3,distance=2.5",
-                             "irradiance-cache,a=0.1,rays=32", "light-probes,grid=3,rays=12"})
+    for (const char* text :
+         {"path", "ambient,color=auto,distance=1", "ambient,color=0.1:0.2:0.3,distance=2.5", "irradiance-cache,a=0.1,rays=32",
+          "light-probes,grid=3,rays=12", "photon-map,photons=1000,radius=auto", "photon-map,photons=7,radius=0.25"})
         EXPECT_EQ(to_string(integrator(text)), text);
     for (const char* text : {"", "photons", "path,a=1", "ambient,a=1", "ambient,distance=0", "ambient,distance=nan", "ambient,color=1:2",
                              "ambient,color=1:2:-3", "ambient,color=1:2:inf", "irradiance-cache,a=2", "irradiance-cache,rays=0",
-                             "irradiance-cache,rays=2000", "light-probes,grid=65", "light-probes,grid", "light-probes,"})
+                             "irradiance-cache,rays=2000", "light-probes,grid=65", "photon-map,photons=0", "photon-map,radius=-1",
+                             "photon-map,rays=4", "light-probes,grid", "light-probes,"})
         EXPECT_FALSE(parse_integrator(text)) << text;
 }
 
