@@ -26,9 +26,12 @@ constexpr const char* samplers[]{"random numbers: --sampler random", "Sobol poin
 constexpr const char* caustics[]{"without: --caustics off", "path guiding: --caustics guiding", "light paths: --caustics light-paths",
                                  "manifold sampling: --caustics manifold", "all (auto): --caustics auto"};
 
-constexpr const char* tricks[]{"path tracing: --integrator path", "ambient light and occlusion: --integrator ambient",
-                               "irradiance cache: --integrator irradiance-cache", "light probes: --integrator light-probes",
-                               "photon map: --integrator photon-map"};
+constexpr const char* tricks[]{"path tracing: --integrator path",
+                               "ambient light and occlusion: --integrator ambient",
+                               "irradiance cache: --integrator irradiance-cache",
+                               "light probes: --integrator light-probes",
+                               "photon map: --integrator photon-map",
+                               "photon map, final gather: --integrator photon-map,photons=200000,gather=4"};
 
 struct Preset {
     const char* name;

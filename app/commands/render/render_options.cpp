@@ -247,7 +247,7 @@ void add_integrator_option(CLI::App& app, RenderOptions& o) {
                "Path tracing or, for comparison, a biased integrator: direct light with ambient light and occlusion, an irradiance cache, "
                "light probes or a photon map [path]")
         ->type_name("path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N]|light-probes[,grid=N][,rays=N]|"
-                    "photon-map[,photons=N][,radius=M|auto]");
+                    "photon-map[,photons=N][,radius=M|auto][,gather=N]");
 }
 
 void add_render_options(CLI::App& app, RenderOptions& options) {

@@ -49,6 +49,7 @@ bool parse_knob(std::string_view name, std::string_view value, BiasedIntegrator&
     if (to.kind == Kind::light_probes && name == "grid") return parse_number(value, to.grid) && to.grid >= 1 && to.grid <= max_grid;
     if (to.kind == Kind::photon_map && name == "photons")
         return parse_number(value, to.photons) && to.photons >= 1 && to.photons <= max_photons;
+    if (to.kind == Kind::photon_map && name == "gather") return parse_number(value, to.gather) && to.gather >= 0 && to.gather <= max_rays;
     if (to.kind == Kind::photon_map && name == "radius") {
         to.radius = 0;
         return value == "auto" || (parse_number(value, to.radius) && to.radius > 0 && std::isfinite(to.radius));
@@ -78,7 +79,7 @@ Result<BiasedIntegrator> parse_integrator(std::string_view text) {
             return Error{.what = fmt::format("integrator {}: \"{}\" is not an option, or out of range (ambient: color=R:G:B or auto, "
                                              "distance=M; irradiance-cache: a=0..1, rays=1..1024; light-probes: grid=1..64, rays=1..1024; "
                                              "photon-map: photons=1..1e8, "
-                                             "radius=M or auto)",
+                                             "radius=M or auto, gather=0..1024)",
                                              parts[0], parts[i])};
     }
     return integrator;
@@ -94,8 +95,8 @@ std::string to_string(const BiasedIntegrator& i) {
                                  : fmt::format("{},color={}:{}:{},distance={}", name, i.color.x, i.color.y, i.color.z, i.distance);
     case Kind::irradiance_cache: return fmt::format("{},a={},rays={}", name, i.accuracy, rays);
     case Kind::photon_map:
-        return i.radius > 0 ? fmt::format("{},photons={},radius={}", name, i.photons, i.radius)
-                            : fmt::format("{},photons={},radius=auto", name, i.photons);
+        return fmt::format("{},photons={},radius={},gather={}", name, i.photons, i.radius > 0 ? fmt::format("{}", i.radius) : "auto",
+                           i.gather);
     case Kind::light_probes: return fmt::format("{},grid={},rays={}", name, i.grid, rays);
     }
     return name;

@@ -16,7 +16,7 @@ struct BiasedIntegrator {
         ambient,          // the same light from all sides, times ambient occlusion
         irradiance_cache, // Ward, Rubinstein and Clear 1988
         light_probes,     // a grid of spherical harmonics of 2nd order
-        photon_map,       // Jensen 1996, without final gather
+        photon_map,       // Jensen 1996
     };
     Kind kind = Kind::none;
     // ambient: its radiance in nits. Automatic: the mean over the picture of what the path tracer finds.
@@ -28,6 +28,7 @@ struct BiasedIntegrator {
     int rays = 0;          // paths per record or probe; 0: 256 per record, 192 per probe
     int photons = 1000000; // photon_map: light paths
     float radius = 0;      // photon_map: of the disk that counts photons, metres; 0: a fiftieth of the radius of the scene
+    int gather = 0;        // photon_map: rays of the final gather at each point; 0: the map itself is shown
     int grid = 12;         // light_probes: cells along each axis of the scene's bounds
 
     int default_rays() const { return kind == Kind::light_probes ? 192 : 256; }
@@ -35,7 +36,7 @@ struct BiasedIntegrator {
 };
 
 // "path", "ambient,color=R:G:B|auto,distance=M", "irradiance-cache,a=A,rays=N", "light-probes,grid=N,rays=N",
-// "photon-map,photons=N,radius=M|auto".
+// "photon-map,photons=N,radius=M|auto,gather=N".
 Result<BiasedIntegrator> parse_integrator(std::string_view text);
 std::string to_string(const BiasedIntegrator& integrator);
 // Why its images are biased, for people.

@@ -1,6 +1,6 @@
 // The photon map (Jensen 1996, "Global illumination using photon maps"): flux of light paths that arrives at surfaces, and its density over
-// a disk around a point as the indirect irradiance there. Consistent: right in the limit of many photons and small disks. Without final
-// gather.
+// a disk around a point as the indirect irradiance there or, with a final gather, at the surfaces that reflect the indirect light to it.
+// Consistent: right in the limit of many photons and small disks.
 #pragma once
 
 #include "render/biased/biased_integrator.h"
@@ -14,6 +14,7 @@ namespace blush {
 struct Photon {
     Vec3 position, towards; // towards: unit, against the flight
     Vec3 flux;              // lm, RGB
+    bool direct = false;    // no surface has scattered it
 };
 
 class PhotonMap : public IndirectLight {
@@ -30,6 +31,10 @@ private:
         size_t begin = 0, end = 0;
     };
     void sort_by_cells();
+    // Irradiance at a point by its photons, with or without those that come from a light directly.
+    Vec3d density(const Vec3d& at, const Vec3d& normal, bool with_direct) const;
+    // Final gather: the mean of what the map finds along rays.
+    Vec3d gather(const KernelContext& context, const DiffusePoint& point, TileScratch& scratch) const;
 
     BiasedIntegrator options_;
     double radius_ = 1;           // metres
