@@ -6,6 +6,7 @@
 #include "app/commands/converge/converge.h"
 #include "app/commands/denoise.h"
 #include "app/commands/info.h"
+#include "app/commands/lesson/lesson.h"
 #include "app/commands/merge.h"
 #include "app/commands/paths/paths.h"
 #include "app/commands/plan/plan.h"
@@ -80,6 +81,7 @@ int run_command_line(int argc, char** argv) {
     add_plan_command(app, run);
     add_paths_command(app, run);
     add_bleed_command(app, run);
+    add_lesson_command(app, run);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) { // --help, --version
