@@ -6,6 +6,7 @@
 #include "app/editor/editor_commands.h"
 #include "app/editor/editor_convergence.h"
 #include "app/editor/editor_display.h"
+#include "app/editor/editor_lesson.h"
 #include "app/editor/editor_messages.h"
 #include "app/editor/editor_panels.h"
 #include "app/editor/editor_snapshots.h"
@@ -106,6 +107,7 @@ private:
     OneShotMetering metering_;
     EditorMessages messages_;
     StartPage opening_page_{options_.assets, &Window::wake};
+    EditorLesson lesson_{options_.assets, &Window::wake};
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
@@ -149,6 +151,7 @@ Editor::Editor(const EditorOptions& options, std::unique_ptr<Window> window, Col
         options.scene.empty() ? options.assets / "scenes" / "card-and-mug.gltf" : options.scene,
         {options.overrides, float(options.render.width) / float(options.render.height), options.settings_given, options.view_given});
     ui_.demos = opening_page_.demos();
+    ui_.lesson.shipped = lesson_.shipped();
     ui_.opening_page = options.scene.empty();
     saving_.offer_recovery(options.scene);
 }
@@ -169,7 +172,8 @@ void Editor::run() {
         submit();
         draw();
     }
-    if (!shows_preview()) opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
+    if (!lesson_.end(context()) && !shows_preview())
+        opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
     saving_.end();
     snapshots_.finish_all();
     remember();
@@ -183,6 +187,7 @@ void Editor::poll() {
     if (finished.opened || finished.saved) {
         window_->set_title(files_.scene_file().filename().string() + " - Blush");
         if (finished.opened) {
+            lesson_.end(context());
             submitted_ = nullptr; // a new scene is always submitted
             messages_.opened();
             metering_.opened(finished.stored_exposure || std::exchange(options_.exposure_given, false), document_.project());
@@ -198,6 +203,7 @@ void Editor::poll() {
         if (!ui_.dialog) saving_.before_losing_edits("closing the window", [this] { leaving_ = true; });
     }
     for (const auto& file : window_->take_dropped_files()) takers().dispatch_dropped(file);
+    if (!files_.preview() && lesson_.poll(context(), document_.project())) submitted_ = nullptr;
     // While text is edited or a popup is open, it receives the keys. Esc closes menus and combo boxes; dialogs handle it
     // themselves.
     const bool taken = ImGui::GetIO().WantTextInput || ui_.browser || ui_.dialog, menu = any_popup_open();
@@ -214,8 +220,9 @@ void Editor::poll() {
     save_due_snapshot();
 }
 
-// The displayed document, or the preview of a scene that is loading.
+// The displayed document, or the preview of a scene that is loading, or that of a lesson.
 Document& Editor::document_shown() {
+    if (Document* lesson = lesson_.document()) return *lesson;
     Document* preview = files_.preview();
     return preview ? *preview : document_;
 }
@@ -306,12 +313,12 @@ void Editor::handle_requests(PanelContext& c) {
             command != Command::open && command != Command::quit && command != Command::shortcuts && command != Command::guide;
         if (needs_document && files_.preview())
             ui_.toasts.note("Not available until the textures are loaded");
-        else if (!run_command(command, c))
+        else if (!run_command(command, c) && !lesson_.refuses(command, ui_))
             run_own_command(command);
     }
     desktop_file_dialog_.poll(ui_);
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
-    if (std::exchange(ui_.meter_exposure, false)) metering_.want(document_.project(), false);
+    if (std::exchange(ui_.meter_exposure, false) && !lesson_.document()) metering_.want(document_.project(), false);
     saving_.poll_dialog();
     convergence_.handle_requests(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets),
                                  files_.scene_file());
@@ -382,12 +389,13 @@ bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) con
 
 // Submits the project if something that affects the image has changed.
 void Editor::submit() {
-    if (const Document* preview = files_.preview()) return submit_preview(preview->project().scene);
-    if (files_.scene_file().empty()) return; // nothing is open yet
+    const Document& shown = document_shown();
+    if (files_.preview() && !lesson_.document()) return submit_preview(shown.project().scene);
+    if (files_.scene_file().empty() && !lesson_.document()) return; // nothing is open yet
     const std::optional<EditorSnapshots::Restored> restored = snapshots_.take_restored();
     if (restored) keep_size(restored->settings);
     const RenderSettings r = render_settings();
-    const Scene& scene = document_.project().scene;
+    const Scene& scene = shown.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
     const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
     const uint64_t revision = last_revision_ + 1;
@@ -395,11 +403,10 @@ void Editor::submit() {
         film || !submitted_ ? session_.submit(revision, scene, r, planes, film) : session_.submit_changes(revision, scene, r, planes);
     if (!next) return;
     last_revision_ = revision;
-    const std::string opened = submitted_ ? "" : files_.scene_file().filename().string();
+    const std::string opened = submitted_ ? "" : ui_.lesson.is_on() ? ui_.lesson.title : files_.scene_file().filename().string();
     const bool goes_back = submitted_ && submitted_->revision == last_preview_; // no other scene has replaced the document
     submitted_ = next;
-    goes_back ? convergence_.begin(ui_.convergence, "Textures loaded", next)
-              : convergence_.submit(ui_.convergence, document_, next, opened);
+    goes_back ? convergence_.begin(ui_.convergence, "Textures loaded", next) : convergence_.submit(ui_.convergence, shown, next, opened);
     stats_.submitted(revision, frame_begin_);
 }
 
@@ -415,7 +422,7 @@ void Editor::latest() {
     images_ = session_.images();
     if (shows_preview() && !files_.preview() && files_.scene_file().empty()) images_ = {}; // there is no document to return to
     if (!shows_preview()) convergence_.update(ui_.convergence, images_);
-    if (images_.frame && images_.frame->revision == submitted_revision() && !files_.preview()) {
+    if (images_.frame && images_.frame->revision == submitted_revision() && !files_.preview() && !lesson_.document()) {
         metering_.update(document_, images_.frame, ui_, color_);
         messages_.update(*images_.frame, document_.project().scene, ui_.toasts);
         opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_);

@@ -32,6 +32,7 @@ bool FileRouter::browse_for(Command command) {
 }
 
 void FileRouter::take(const FileRequest& request) {
+    if (ui.lesson.is_on()) return ui.toasts.note(LessonView::refusal, LessonView::refusal_details);
     switch (request.use) {
     case FileRequest::Use::open:
         if (matches(snapshot_files, request.path)) return snapshots.open(request.path, files.scene_file(), false);
@@ -49,7 +50,11 @@ void FileRouter::take(const FileRequest& request) {
 }
 
 void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
-    if (matches(scene_files, file))
+    if (matches(lesson_files, file))
+        ui.lesson.to_open = file;
+    else if (ui.lesson.is_on())
+        ui.toasts.note(LessonView::refusal, LessonView::refusal_details);
+    else if (matches(scene_files, file))
         take({FileRequest::Use::open, file});
     else if (matches(snapshot_files, file))
         snapshots.open(file, files.scene_file(), true);
@@ -61,8 +66,8 @@ void FileRouter::dispatch_dropped(const std::filesystem::path& file) {
         files.load_ies(file, document, ui);
     else
         ui.toasts.fail(file.filename().string() + " cannot be opened",
-                       "Drop a glTF scene (.gltf, .glb), an environment image (.hdr, .exr), a rendered image (.exr), an IES file (.ies) or "
-                       "a convergence table (.csv).");
+                       "Drop a glTF scene (.gltf, .glb), an environment image (.hdr, .exr), a rendered image (.exr), an IES file (.ies), "
+                       "a convergence table (.csv) or a lesson (.md).");
 }
 
 } // namespace blush

@@ -46,6 +46,17 @@ void draw_demos(PanelContext& c) {
     ImGui::EndMenu();
 }
 
+void draw_lessons(PanelContext& c) {
+    const bool open = ImGui::BeginMenu("Lessons", !c.ui.lesson.shipped.empty());
+    c.ui.probe.record_last_item("Menu/Lessons");
+    if (!open) return;
+    for (const LessonView::File& lesson : c.ui.lesson.shipped) {
+        if (ImGui::MenuItem((lesson.title + "###" + lesson.file.string()).c_str())) c.ui.lesson.to_open = lesson.file;
+        c.ui.probe.record_last_item("Menu/Lessons/" + lesson.title);
+    }
+    ImGui::EndMenu();
+}
+
 constexpr const char* menus[] = {"File", "Edit", "Lights", "View", "Window", "Help"};
 
 // Left and Right go on to the neighbouring menu. ImGui closes a menu if they lead to nothing in it, such as a submenu.
@@ -222,6 +233,7 @@ void draw_menu_bar(PanelContext& c) {
     }
     if (begin_menu(c, "Help")) {
         item(c, Command::guide);
+        draw_lessons(c);
         item(c, Command::shortcuts);
         ImGui::EndMenu();
     }

@@ -49,6 +49,7 @@ void draw_region_panel(PanelContext& c);
 void draw_paths_panel(PanelContext& c);
 void draw_scopes_panel(PanelContext& c);
 void draw_bounces_panel(PanelContext& c);
+void draw_lesson_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);

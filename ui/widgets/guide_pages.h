@@ -16,6 +16,7 @@ constexpr const char* light_units = "guide/lighting.html#units-and-colour";
 constexpr const char* light_table = "guide/lighting.html#light-table";
 constexpr const char* light_mix = "guide/light-mix.html";
 constexpr const char* bleed = "guide/bleed.html";
+constexpr const char* lessons = "guide/lessons.html";
 constexpr const char* materials = "guide/materials.html";
 constexpr const char* camera = "guide/camera.html";
 constexpr const char* display = "guide/display.html";
@@ -29,6 +30,6 @@ constexpr const char* comparison = "guide/snapshots.html#compare";
 
 constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,  viewport,  status_bar, file_browser, docks,
                                light_kinds, light_units, light_table, light_mix, bleed,     materials,  display,      camera,
-                               measuring,   convergence, chart,       lab,       snapshots, comparison, paths};
+                               measuring,   convergence, chart,       lab,       snapshots, comparison, paths,        lessons};
 
 } // namespace blush::guide_page

@@ -20,6 +20,7 @@ const ExtensionFilter environment_files{".hdr", ".exr"};
 const ExtensionFilter table_files{".csv"};
 const ExtensionFilter snapshot_files{".exr"};
 const ExtensionFilter photometric_files{".ies"};
+const ExtensionFilter lesson_files{".md"};
 const ExtensionFilter image_files{".png", ".jpg", ".jpeg", ".webp", ".bmp", ".exr", ".hdr"};
 
 bool matches(const ExtensionFilter& filter, const std::filesystem::path& file) {

@@ -37,6 +37,6 @@ std::string completed_path(const std::string& typed, const ExtensionFilter& filt
 // "812 B", "3.4 MB".
 std::string bytes_text(uintmax_t bytes);
 
-extern const ExtensionFilter scene_files, environment_files, table_files, snapshot_files, photometric_files, image_files;
+extern const ExtensionFilter scene_files, environment_files, table_files, snapshot_files, photometric_files, image_files, lesson_files;
 
 } // namespace blush

@@ -16,6 +16,7 @@
 #include "ui/views/health_view.h"
 #include "ui/views/home_view.h"
 #include "ui/views/import_report_view.h"
+#include "ui/views/lesson_view.h"
 #include "ui/views/light_mix_view.h"
 #include "ui/views/map_view.h"
 #include "ui/views/meters_view.h"
@@ -167,6 +168,7 @@ struct UiState {
     TransformView transform;               // of the selection, by gizmo or keys
     bool show_history = false;
     MenuBarView menu_bar;
+    LessonView lesson;
     LightMixView light_mix;
     BleedView bleed;
     BouncesView bounces;
