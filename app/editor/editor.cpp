@@ -77,7 +77,6 @@ private:
     void keep_size(const RenderSettings& kept);
     // The revision that the window expects; 0: none yet.
     uint64_t submitted_revision() const { return submitted_ ? submitted_->revision : 0; }
-    bool worth_restoring(const FilmState& film, const RenderSettings& r) const;
     void submit_preview(const Scene& scene);
     bool shows_preview() const { return images_.frame && images_.frame->revision <= last_preview_; }
 
@@ -381,12 +380,6 @@ void Editor::keep_size(const RenderSettings& kept) {
                     "To render at the window's size again, switch on Fit viewport in the Render tab.");
 }
 
-// Not if the displayed image is the same image with more samples.
-bool Editor::worth_restoring(const FilmState& film, const RenderSettings& r) const {
-    const bool same = submitted_ && !changes_since(submitted_.get(), {document_.project().scene, r}).affects_image();
-    return !same || !images_.frame || images_.frame->revision != submitted_revision() || images_.frame->samples < film.samples;
-}
-
 // Submits the project if something that affects the image has changed.
 void Editor::submit() {
     const Document& shown = document_shown();
@@ -397,7 +390,8 @@ void Editor::submit() {
     const RenderSettings r = render_settings();
     const Scene& scene = shown.project().scene;
     const PlaneSet planes = ui_.wanted_planes();
-    const FilmStatePtr film = restored && restored->film && worth_restoring(*restored->film, r) ? restored->film : nullptr;
+    const bool restores = restored && restored->film && worth_restoring(*restored->film, submitted_, {scene, r}, images_);
+    const FilmStatePtr film = restores ? restored->film : nullptr;
     const uint64_t revision = last_revision_ + 1;
     const SubmissionPtr next =
         film || !submitted_ ? session_.submit(revision, scene, r, planes, film) : session_.submit_changes(revision, scene, r, planes);

@@ -91,6 +91,10 @@ bool EditorLesson::poll(PanelContext c, const Project& user) {
             },
             wake_);
     if (std::exchange(view.to_end, false)) return end(c);
+    if (document_ && frames_to_front_ > 0) {
+        c.ui.seconds_to_next_frame = 0;
+        if (--frames_to_front_ == 0) c.ui.docks.to_front.insert("lesson");
+    }
     if (document_) c.ui.snapshots.open = false; // they are of the user's scene, and would restore its state
     bool changed = false;
     if (auto loaded = job_ ? job_->take() : std::nullopt) {
@@ -139,6 +143,7 @@ void EditorLesson::go_to(PanelContext& c, size_t step, const Project& user) {
     first ? document_->reset(std::move(state)) : document_->replace(std::move(state), fmt::format("Step {}: {}", step + 1, s.title));
     open_panels(c, s.panels, lesson_panels);
     c.ui.tool = tool_of(s.tool);
+    frames_to_front_ = 3;
 }
 
 bool EditorLesson::end(PanelContext c) {

@@ -60,6 +60,7 @@ private:
     Loaded loaded_;
     std::optional<Document> document_;
     std::optional<Kept> kept_;
+    int frames_to_front_ = 0;                            // the panels of the step open first; one beside the lesson would hide it
     std::unique_ptr<BackgroundJob<Result<Loaded>>> job_; // last: it uses what is above
 };
 

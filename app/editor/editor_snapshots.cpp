@@ -38,6 +38,11 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 } // namespace
 
+bool worth_restoring(const FilmState& film, const SubmissionPtr& submitted, const SubmissionContent& wanted, const Images& shown) {
+    const bool same = submitted && !changes_since(submitted.get(), wanted).affects_image();
+    return !same || !shown.frame || shown.frame->revision != submitted->revision || shown.frame->samples < film.samples;
+}
+
 // ---- taking snapshots
 
 void EditorSnapshots::keep(Shown shown, RenderSession& session) {

@@ -17,6 +17,9 @@
 
 namespace blush {
 
+// False if the displayed image is that of the film, `wanted`, with as many samples.
+bool worth_restoring(const FilmState& film, const SubmissionPtr& submitted, const SubmissionContent& wanted, const Images& shown);
+
 class EditorSnapshots {
 public:
     // `before_leaving`: runs its argument when no unsaved edits would be lost; never if the user cancels.

@@ -55,7 +55,7 @@ const Instrument table[] = {
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", guide_page::measuring, bottom, 36, 16, draw_meters_panel),
     by_flag<[](auto& ui) { return &ui.paths.open; }>("paths", "Paths", guide_page::paths, right, 26, 48, draw_paths_panel),
-    {"lesson", "Lesson", guide_page::lessons, right, 30, 40, false, [](const PanelContext& c) { return c.ui.lesson.is_on(); },
+    {"lesson", "Lesson", guide_page::lessons, bottom, 60, 15, false, [](const PanelContext& c) { return c.ui.lesson.is_on(); },
      [](PanelContext& c, bool open) {
          if (!open) c.ui.lesson.to_end = true;
      },
