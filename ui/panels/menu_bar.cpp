@@ -233,8 +233,8 @@ void draw_menu_bar(PanelContext& c) {
     }
     if (begin_menu(c, "Help")) {
         item(c, Command::guide);
-        draw_lessons(c);
         item(c, Command::shortcuts);
+        draw_lessons(c);
         ImGui::EndMenu();
     }
 }
