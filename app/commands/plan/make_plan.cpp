@@ -9,6 +9,7 @@
 #include "io/project/json_fields.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
+#include "render/film/sample_allocation.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,7 @@ Result<PlanLook> recipe_of(const PlanInput& input, const std::string& name, cons
     }
     settings.spp = settings.first_sample = 0;
     settings.seconds = settings.error = 0;
-    settings.adaptive = false;
+    settings.adaptive = plan.samples_adaptively(settings);
     look.settings = settings;
     return look;
 }
@@ -229,6 +230,7 @@ Result<RenderPlan> make_plan(const PlanInput& input, const RenderRun& run, const
     plan.layers = input.layers;
     plan.texture_mib = input.options.overrides.texture_mib;
     plan.error = input.options.settings.error;
+    plan.adaptive = input.options.settings.adaptive;
     plan.spp = plan.error > 0 && !input.options.spp_given ? default_limit : input.options.settings.spp;
     plan.frames_per_second = input.frames_per_second;
     plan.view = input.options.view;
@@ -241,9 +243,14 @@ Result<RenderPlan> make_plan(const PlanInput& input, const RenderRun& run, const
     plan.chunk = input.chunk          ? *input.chunk
                  : input.workers == 0 ? choose_chunk(plan.costs, looks, plan.spp)
                                       : choose_chunk_for(plan.costs, looks, plan.spp, input.workers);
+    // The first round: of adaptive sampling the pilot; where an error is to be reached, one chunk.
     std::vector<LookSamples> wanted;
-    // Where an error is to be reached, the first round is one chunk.
-    for (size_t i = 0; i < plan.looks.size(); ++i) wanted.push_back({i, {0, plan.error > 0 ? std::min(plan.chunk, plan.spp) : plan.spp}});
+    for (size_t i = 0; i < plan.looks.size(); ++i) {
+        const int64_t first_round = plan.looks[i].settings.adaptive ? SampleAllocation::pilot_samples
+                                    : plan.error > 0                ? plan.chunk
+                                                                    : plan.spp;
+        wanted.push_back({i, {0, std::min(first_round, plan.spp)}});
+    }
     add_tasks(plan, wanted);
     return plan;
 }
@@ -254,7 +261,8 @@ void add_tasks(RenderPlan& plan, const std::vector<LookSamples>& wanted) {
         more = false;
         for (LookSamples& look : left) {
             if (look.samples.first >= look.samples.last) continue;
-            const int64_t end = std::min(look.samples.last, (look.samples.first / plan.chunk + 1) * plan.chunk);
+            const int64_t chunk_end = std::min(look.samples.last, (look.samples.first / plan.chunk + 1) * plan.chunk);
+            const int64_t end = end_of_task(plan.looks[look.look], look.samples.first, chunk_end);
             plan.tasks.push_back({look.look, {look.samples.first, end}});
             look.samples.first = end;
             more = more || end < look.samples.last;

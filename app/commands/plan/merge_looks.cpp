@@ -6,6 +6,7 @@
 #include "core/files.h"
 #include "io/image/snapshot.h"
 #include "io/project/json_fields.h"
+#include "render/film/sample_allocation.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -50,11 +51,13 @@ Result<void> write_merged_record(const std::filesystem::path& folder, const Rend
 }
 
 // `blush merge`, as if typed: it knows how to add sums.
-bool run_merge_of(const std::vector<Part>& chain, const std::filesystem::path& output, unsigned threads) {
+bool run_merge_of(const std::vector<Part>& chain, const std::filesystem::path& output, const std::filesystem::path& allocation,
+                  unsigned threads) {
     CLI::App app;
     std::function<int()> merge;
     add_merge_command(app, merge);
     std::vector<std::string> arguments{"merge", "-o", output.string(), "--quiet"};
+    if (!allocation.empty()) arguments.insert(arguments.end(), {"--allocation", allocation.string()});
     if (threads > 0) arguments.insert(arguments.end(), {"--threads", std::to_string(threads)});
     for (const Part& part : chain) arguments.push_back(part.file.string());
     std::ranges::reverse(arguments); // CLI11 takes them from the end
@@ -109,14 +112,19 @@ Result<LookProgress> merge_look(const std::filesystem::path& folder, const Rende
                                 unsigned threads) {
     const PlanLook& look = plan.looks[index];
     LookProgress progress = look_progress(folder, plan, index, planned);
-    if (progress.merged) return progress;
+    // The pilot of adaptive sampling, all of it: its merge decides the allocation.
+    std::error_code code;
+    const bool decides = look.settings.adaptive && look.allocation.empty() && progress.last == SampleAllocation::pilot_samples;
+    const std::filesystem::path allocation = decides ? allocation_file(folder, look) : std::filesystem::path();
+    if (progress.merged && (!decides || std::filesystem::exists(allocation, code))) return progress;
     if (progress.chain.empty()) return Error{.file = look.name, .what = "has no samples yet from the first on"};
     const std::filesystem::path output = merged_file(folder, look);
     if (const Result<void> ready = provide_folder(folder, output.parent_path()); !ready) return ready.error();
-    std::error_code code;
+    if (decides)
+        if (const Result<void> ready = provide_folder(folder, allocation.parent_path()); !ready) return ready.error();
     std::filesystem::remove(display_file(folder, look), code);
     const Part& first = progress.chain.front();
-    const bool done = progress.chain.size() > 1 ? run_merge_of(progress.chain, output, threads)
+    const bool done = progress.chain.size() > 1 ? run_merge_of(progress.chain, output, allocation, threads)
                                                 : check_part(first.file, plan, look, first.samples) && copy_part(first, output);
     if (!done) {
         const size_t removed = remove_damaged(plan, look, progress.chain);

@@ -95,6 +95,10 @@ std::filesystem::path merged_file(const std::filesystem::path& folder, const Pla
     return folder / "merged" / (look.name + ".exr");
 }
 
+std::filesystem::path allocation_file(const std::filesystem::path& folder, const PlanLook& look) {
+    return folder / "allocations" / (look.name + ".json");
+}
+
 Result<void> provide_folder(const std::filesystem::path& folder, const std::filesystem::path& inside) {
     // Before anything is created: a link may lead anywhere.
     if (!is_below(inside, folder)) return Error{.file = inside.string(), .what = "is a link that leads out of the folder of the plan"};

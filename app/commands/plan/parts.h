@@ -19,6 +19,8 @@ struct Part {
 std::filesystem::path parts_folder(const std::filesystem::path& folder, const PlanLook& look);
 std::filesystem::path part_file(const std::filesystem::path& folder, const PlanLook& look, SampleSpan samples);
 std::filesystem::path merged_file(const std::filesystem::path& folder, const PlanLook& look);
+// The allocation of its adaptive sampling (allocation_file.h).
+std::filesystem::path allocation_file(const std::filesystem::path& folder, const PlanLook& look);
 
 // Creates a folder of the plan, into which files will be written. Errors: it cannot be created, a symbolic link leads out of the plan,
 // or the folder holds one: writing would follow it.

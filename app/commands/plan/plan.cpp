@@ -82,12 +82,11 @@ Result<void> complete_input(PlanCommand& c) {
     if (input.scenes.empty() && input.snapshots.empty()) return Error{.what = "plan needs a SCENE or --snapshots"};
     for (const char* unwanted : {"time", "samples", "denoise"})
         if (std::ranges::find(c.given, unwanted) != c.given.end()) return Error{.what = fmt::format("--{} cannot be planned", unwanted)};
-    if (std::ranges::find(c.given, "adaptive") != c.given.end() && input.options.settings.adaptive)
-        return Error{.what = "--adaptive on cannot be planned: the sampling of each part would depend on all others"};
     if (has_control_character(c.program)) return Error{.what = "--program must be one line"};
     if (!(input.frames_per_second >= 0.01 && input.frames_per_second <= 1000)) return Error{.what = "--fps must be from 0.01 to 1000"};
     if (!input.frames.empty() && input.turntable > 0) return Error{.what = "--frames and --turntable exclude each other"};
-    input.options.settings.adaptive = false;
+    // Off unless asked for: it needs a second round.
+    input.options.settings.adaptive &= input.options.adaptive_given;
     if (const Result<RenderSettings> settings = settings_of(input.options); !settings) return settings.error();
     const Result<Layers> layers = parse_layers(input.layers);
     if (!layers) return layers.error();
@@ -236,6 +235,9 @@ int run_merges(const PlanCommand& c, const std::filesystem::path& folder, const 
         return failed(written.error());
     if (c.prints())
         fmt::print("{}: {} of {} looks merged, {} unfinished\n", (folder / "merged").string(), merged.size(), chosen->size(), unfinished);
+    const auto waits = [](const PlanLook& look) { return !look.finished; };
+    if (plan.in_rounds() && c.prints() && std::ranges::any_of(plan.looks, waits))
+        fmt::print(stderr, "blush: note: another round may follow: run `blush plan resume {}`\n", c.what[1]);
     if (unfinished > 0 && !c.partial)
         return failed({.file = folder.string(),
                        .what = fmt::format("{} of {} looks lack samples; see blush plan status", unfinished, chosen->size())});
@@ -318,6 +320,7 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
     sub->add_flag("--watch", command->watch, "With status: again every two seconds until all is done");
     sub->add_flag("--partial", command->partial, "With merge: also looks that lack samples, as far as they are without gap");
     add_render_options(*sub, command->input.options);
+    sub->get_option("--adaptive")->description("Adaptive sampling, which takes two rounds: a pilot, then the samples it allocates [off]");
     add_common_options(*sub, command->common);
     sub->callback([command, sub, &run] {
         command->input.words = words_given(*sub);

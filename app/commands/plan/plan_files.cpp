@@ -90,8 +90,8 @@ echo "contact sheet: job ${sheet%%;*}"
             script.replace(at, what.size(), with);
     };
     std::string rounds;
-    if (plan.error > 0) {
-        rounds = "# The error decides after each round whether there is another one. Nothing new means the end, or tasks that fail.\n"
+    if (plan.in_rounds()) {
+        rounds = "# `plan resume` decides after each round whether there is another one. Nothing new means the end, or tasks that fail.\n"
                  "if [ ! -s missing.txt ] || cmp -s missing.txt slurm/round.txt; then\n"
                  "    echo \"no new tasks\"\n"
                  "    exec @PROGRAM@ plan merge .\n"
@@ -112,6 +112,11 @@ echo "contact sheet: job ${sheet%%;*}"
 }
 
 std::string explanation(const RenderPlan& plan) {
+    const std::string on_this_machine =
+        plan.in_rounds() ? "On this machine, round by round:             cd DIR; while [ -s missing.txt ]; do sh missing.txt && blush plan "
+                           "resume . || break; done; blush plan merge .\n"
+                         : "On this machine, one task after the other:   sh commands.txt; blush plan merge DIR\n"
+                           "On this machine, with GNU parallel:          parallel -j 1 <commands.txt; blush plan merge DIR\n";
     const std::string until = plan.error > 0 ? fmt::format("until the error is {:g}, at most {} samples per pixel", plan.error, plan.spp)
                                              : fmt::format("{} samples per pixel", plan.spp);
     return fmt::format("A render plan of blush {}. Looks: {}, {}. Tasks: {} of {} samples.\n"
@@ -123,13 +128,12 @@ std::string explanation(const RenderPlan& plan) {
                        "merge.txt        one command a line, per look, after the tasks\n"
                        "submit-slurm.sh  submits what is missing and then the merges to Slurm; slurm-*.sh are its jobs\n"
                        "scenes           copies of the scenes, if they were gathered\n"
-                       "parts            sums of samples; logs, one per task; merged, the images\n"
+                       "parts            sums of samples; logs, one per task; merged, the images; allocations, of adaptive sampling\n"
                        "\n"
-                       "On this machine, one task after the other:   sh commands.txt; blush plan merge DIR\n"
-                       "On this machine, with GNU parallel:          parallel -j 1 <commands.txt; blush plan merge DIR\n"
+                       "{}"
                        "How it stands:                               blush plan status DIR --watch\n"
                        "What is missing, as a list of commands:      blush plan resume DIR\n",
-                       plan.version, plan.looks.size(), until, plan.tasks.size(), plan.chunk);
+                       plan.version, plan.looks.size(), until, plan.tasks.size(), plan.chunk, on_this_machine);
 }
 
 Result<void> write_script(const std::filesystem::path& file, const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/commands/progress.h"
+#include "app/commands/render/allocation_file.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/image_metadata.h"
 #include "app/commands/render/layers.h"
@@ -43,6 +44,17 @@ Result<LoadedScene> load_look(const std::filesystem::path& folder, const RenderP
     return loaded;
 }
 
+Result<SampleAllocation::Shares> allocation_of(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look) {
+    const std::filesystem::path file = allocation_file(folder, look);
+    Result<AllocationFile> allocation = read_allocation(file);
+    if (!allocation) return allocation.error();
+    const RenderSettings& s = look.settings;
+    if (allocation_hash(*allocation) != look.allocation || allocation->scene_hash != plan.scenes[look.scene].hash ||
+        allocation->width != s.width || allocation->height != s.height)
+        return Error{.file = file.string(), .what = fmt::format("is not the allocation of the plan for the look {}", look.name)};
+    return std::move(allocation->shares);
+}
+
 Result<void> write_part(const std::filesystem::path& file, const RenderPlan& plan, const PlanLook& look, const LoadedScene& loaded,
                         const RenderSettings& settings, const LoopResult& loop, Renderer& renderer) {
     const Layers layers = *parse_layers(plan.layers); // as read_plan() has checked
@@ -64,7 +76,13 @@ Result<Part> render_part(const std::filesystem::path& folder, const RenderPlan& 
     RenderSettings settings = look.settings;
     settings.first_sample = samples.first;
     settings.spp = samples.last;
-    Renderer renderer({.threads = run.threads, .planes = planes_of(*parse_layers(plan.layers)), .is_part = true});
+    RendererOptions options{.threads = run.threads, .planes = planes_of(*parse_layers(plan.layers)), .is_part = true};
+    if (settings.adaptive && samples.first >= SampleAllocation::pilot_samples) {
+        Result<SampleAllocation::Shares> shares = allocation_of(folder, plan, look);
+        if (!shares) return shares.error();
+        options.allocation = *std::move(shares);
+    }
+    Renderer renderer(options);
     renderer.update(loaded.scene, settings);
     LoopResult loop;
     {

@@ -3,6 +3,7 @@
 
 #include "app/commands/load_scene.h"
 #include "app/commands/plan/parts.h"
+#include "render/film/sample_allocation.h"
 
 #include <atomic>
 
@@ -24,6 +25,10 @@ std::filesystem::path scene_path(const std::filesystem::path& folder, const Plan
 // files, unreadable.
 Result<LoadedScene> load_look(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look, const RenderRun& run,
                               const std::atomic<bool>& interrupted);
+
+// The allocation of adaptive sampling that the pilot of this look decided. Errors: unreadable, damaged, another one than that whose
+// hash the plan names.
+Result<SampleAllocation::Shares> allocation_of(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look);
 
 // Writes the sums of the renderer after this loop. Errors: cannot write.
 Result<void> write_part(const std::filesystem::path& file, const RenderPlan& plan, const PlanLook& look, const LoadedScene& loaded,

@@ -7,6 +7,7 @@
 #include "io/project/json_fields.h"
 #include "io/project/scene_hash.h"
 #include "io/project/settings_json.h"
+#include "render/film/sample_allocation.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ constexpr int64_t max_samples = int64_t(1) << 40;
 
 constexpr const char* about =
     "A render plan of Blush. `tasks` are the lines of commands.txt; each renders the samples [first, last) of a look into a file below "
-    "parts. Adaptive sampling is off, since its images cannot be merged.";
+    "parts. With adaptive sampling the first tasks are its pilot; `allocation` of a look is the hash of the file below allocations.";
 
 Error wrong(std::string where, std::string what = "missing, of the wrong type or out of range") {
     return Error{.what = std::move(what), .where = std::move(where)};
@@ -61,12 +62,17 @@ Result<PlanLook> read_look(const Json& json, const RenderPlan& plan, const std::
     const Result<ParsedSettings<RenderSettings>> parsed = parse_render_settings(json_text(settings));
     if (!parsed) return wrong(where + ".settings", parsed.error().text());
     look.settings = parsed->settings;
-    if (look.settings.adaptive || look.settings.first_sample != 0 || look.settings.seconds > 0 || look.settings.error > 0)
-        return wrong(where + ".settings", "adaptive sampling and stop rules are not part of a look");
+    if (look.settings.first_sample != 0 || look.settings.seconds > 0 || look.settings.error > 0)
+        return wrong(where + ".settings", "stop rules are not part of a look");
+    if (look.settings.adaptive != plan.samples_adaptively(look.settings))
+        return wrong(where + ".settings", "adaptive sampling differs from that of the plan");
+    if (const Json& allocation = member_of(json, "allocation"); !allocation.is_null())
+        if (!read_json(allocation, look.allocation) || !look.settings.adaptive) return wrong(where + ".allocation");
     return look;
 }
 
-Result<PlanTask> read_task(const Json& json, const std::map<std::string, size_t>& index_of, const std::string& where) {
+Result<PlanTask> read_task(const Json& json, const std::vector<PlanLook>& looks, const std::map<std::string, size_t>& index_of,
+                           const std::string& where) {
     PlanTask task;
     std::string name;
     if (!json.is_object() || !read_json(member_of(json, "look"), name) || !index_of.contains(name)) return wrong(where + ".look");
@@ -76,6 +82,8 @@ Result<PlanTask> read_task(const Json& json, const std::map<std::string, size_t>
         samples.is_array() && samples.size() == 2 && read_json(samples[0], task.samples.first) && read_json(samples[1], task.samples.last);
     if (!numbers || task.samples.first < 0 || task.samples.first >= task.samples.last || task.samples.last > max_samples)
         return wrong(where + ".samples");
+    if (looks[task.look].settings.adaptive && end_of_task(looks[task.look], task.samples.first, max_samples) < task.samples.last)
+        return wrong(where + ".samples", "neither within a half of the pilot nor behind it");
     return task;
 }
 
@@ -104,7 +112,7 @@ Result<void> read_looks_and_tasks(const Json& json, RenderPlan& plan) {
         plan.looks.push_back(*std::move(look));
     }
     for (const Json& item : tasks) {
-        const Result<PlanTask> task = read_task(item, index_of, fmt::format("tasks[{}]", plan.tasks.size()));
+        const Result<PlanTask> task = read_task(item, plan.looks, index_of, fmt::format("tasks[{}]", plan.tasks.size()));
         if (!task) return task.error();
         plan.tasks.push_back(*task);
     }
@@ -134,6 +142,7 @@ Result<void> read_numbers(const Json& json, RenderPlan& plan) {
     if (!read_json(member_of(json, "spp"), plan.spp) || !in_range(plan.spp)) return wrong("spp");
     if (const Json& error = member_of(json, "error"); !error.is_null())
         if (!read_json(error, plan.error) || !(plan.error > 0)) return wrong("error");
+    if (!read_json(member_of(json, "adaptive"), plan.adaptive)) return wrong("adaptive");
     if (!read_json(member_of(json, "fps"), plan.frames_per_second) || !(plan.frames_per_second >= 0.01 && plan.frames_per_second <= 1000))
         return wrong("fps");
     if (!read_json(member_of(json, "program"), plan.program)) return wrong("program");
@@ -170,6 +179,7 @@ OrderedJson look_json(const PlanLook& look) {
             {"sequence", or_null(look.sequence)},
             {"finished", look.finished},
             {"lights_hash", look.lights_hash},
+            {"allocation", or_null(look.allocation)},
             {"settings", parsed_text(render_settings_json(look.settings))},
             {"edits", look.edits.empty() ? OrderedJson() : parsed_text(look.edits)}};
 }
@@ -192,6 +202,11 @@ std::string PlanLook::recipe(const std::string& scene_hash, const std::string& l
         hash = (hash ^ 0xffu) * 0x100000001b3u; // a byte that no text holds: where one ends
     }
     return fmt::format("{:016x}", hash);
+}
+
+int64_t end_of_task(const PlanLook& look, int64_t first, int64_t last) {
+    constexpr int64_t pilot = SampleAllocation::pilot_samples;
+    return look.settings.adaptive && first < pilot ? std::min(last, first < pilot / 2 ? pilot / 2 : pilot) : last;
 }
 
 std::string lights_hash(const Scene& scene) {
@@ -229,7 +244,7 @@ Result<void> write_plan(const std::filesystem::path& folder, const RenderPlan& p
                      {"program", plan.program},
                      {"layers", plan.layers},
                      {"texture_memory", if_set(plan.texture_mib.has_value(), plan.texture_mib.value_or(0))},
-                     {"adaptive", false},
+                     {"adaptive", plan.adaptive},
                      {"chunk", plan.chunk},
                      {"spp", plan.spp},
                      {"error", if_set(plan.error > 0, plan.error)},

@@ -35,6 +35,7 @@ struct PlanLook {
     std::string edits = {};                        // scene_edits_json.h; empty: none
     std::string lights_hash = {};                  // lights_hash() of the edited scene
     RenderSettings settings = {};                  // without stop rules; spp is 0
+    std::string allocation = {};                   // hash of its allocation file once the pilot has decided it; else empty
     std::string sequence = {};                     // name of its frame sequence; empty: none
     bool finished = false;                         // no further round is needed
     // Identifies the recipe in records of parts.
@@ -57,12 +58,20 @@ struct RenderPlan {
     int64_t chunk = 0;                       // samples of a task
     int64_t spp = 0;                         // samples of a look; its limit if there is an error to reach
     double error = 0;                        // relMSE to reach, by rounds; 0: render spp samples
+    bool adaptive = false;                   // adaptive sampling: the first round is its pilot. Looks with a region are without
     double frames_per_second = 24;           // of sequences
     ViewSettings view = {};                  // of contact sheet and film
     std::string program;                     // how its commands call Blush
     MeasuredCosts costs = {};                // by a pilot
+    bool samples_adaptively(const RenderSettings& look) const { return adaptive && look.region == ImageRegion(); }
+    // More tasks may follow when those of a round are done.
+    bool in_rounds() const { return error > 0 || adaptive; }
     std::string recipe(const PlanLook& look) const { return look.recipe(scenes[look.scene].hash, layers); }
 };
+
+// Where a task of a look ends that begins with this sample and would end at `last`: adaptive sampling measures its pilot at the half
+// and at the end (sample_allocation.h), and parts must end there.
+int64_t end_of_task(const PlanLook& look, int64_t first, int64_t last);
 
 // Hash of lights and environment, including pixels and profiles of files that edits name.
 std::string lights_hash(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include "app/commands/plan/make_plan.h"
 #include "app/commands/plan/plan_files.h"
+#include "app/commands/render/allocation_file.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -9,6 +10,19 @@
 
 namespace blush {
 namespace {
+
+// The pilot of an adaptive look is merged: the plan names its allocation from now on.
+Result<void> adopt_allocation(const std::filesystem::path& folder, PlanLook& look) {
+    const std::filesystem::path file = allocation_file(folder, look);
+    const Result<AllocationFile> allocation = read_allocation(file);
+    if (allocation) {
+        look.allocation = allocation_hash(*allocation);
+        return {};
+    }
+    std::error_code code;
+    std::filesystem::remove(file, code); // the next merge of the pilot writes it again
+    return allocation.error();
+}
 
 // Tasks of the next round. Marks looks that need none.
 Result<std::vector<LookSamples>> next_round(const std::filesystem::path& folder, RenderPlan& plan, unsigned threads, bool& changed) {
@@ -20,12 +34,16 @@ Result<std::vector<LookSamples>> next_round(const std::filesystem::path& folder,
         const Result<LookProgress> merged = merge_look(folder, plan, i, planned[i], threads);
         if (!merged) return merged.error();
         const double high = upper_end(merged->error);
+        PlanLook& look = plan.looks[i];
         if ((high > 0 && high <= plan.error) || merged->last >= plan.spp) {
-            plan.looks[i].finished = true;
+            look.finished = true;
             changed = true;
-        } else {
-            wanted.push_back({i, {merged->last, samples_to_reach(plan.error, high, merged->last, plan.chunk, plan.spp)}});
+            continue;
         }
+        if (look.settings.adaptive && look.allocation.empty())
+            if (const Result<void> adopted = adopt_allocation(folder, look); !adopted) return adopted.error();
+        const int64_t last = plan.error > 0 ? samples_to_reach(plan.error, high, merged->last, plan.chunk, plan.spp) : plan.spp;
+        wanted.push_back({i, {merged->last, last}});
     }
     return wanted;
 }
@@ -48,7 +66,7 @@ double upper_end(const std::string& error) {
 
 Result<Resumed> resume_plan(const std::filesystem::path& folder, RenderPlan& plan, unsigned threads) {
     Resumed resumed;
-    if (plan.error > 0) {
+    if (plan.in_rounds()) {
         bool changed = false;
         const Result<std::vector<LookSamples>> wanted = next_round(folder, plan, threads, changed);
         if (!wanted) return wanted.error();

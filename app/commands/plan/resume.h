@@ -1,4 +1,4 @@
-// `blush plan resume DIR`: what is still to do, and the next round of a plan that is to reach an error.
+// `blush plan resume DIR`: what is still to do, and the next round of a plan in rounds: with adaptive sampling, or to reach an error.
 #pragma once
 
 #include "app/commands/plan/status.h"
@@ -18,8 +18,9 @@ int64_t samples_to_reach(double wanted, double high, int64_t samples, int64_t ch
 // The upper end of an error's text, "0.0012 (0.0010 to 0.0014)"; 0 if it is not known.
 double upper_end(const std::string& error);
 
-// Writes missing.txt. If an error is to be reached: merges the looks whose tasks are done, and adds tasks for those whose interval
-// does not say yet that they have reached it. The plan's files are written again then. Errors: a merge fails, cannot write.
+// Writes missing.txt. In a plan in rounds: merges the looks whose tasks are done, decides the allocations of those whose pilot is
+// merged, and adds tasks for those that lack samples or whose interval does not say yet that they have reached the error. The
+// plan's files are written again then. Errors: a merge fails, cannot write.
 Result<Resumed> resume_plan(const std::filesystem::path& folder, RenderPlan& plan, unsigned threads);
 
 } // namespace blush

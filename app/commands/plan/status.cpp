@@ -13,6 +13,9 @@ namespace {
 // Looks and failed tasks beyond these are only counted.
 constexpr size_t shown_looks = 40, shown_failures = 10;
 
+// As far as they are known: where an error is to be reached, those of its tasks.
+int64_t wanted_samples(const RenderPlan& plan, const LookProgress& look) { return plan.error > 0 ? look.planned : plan.spp; }
+
 // Samples of a task that parts hold.
 int64_t held(const std::vector<Part>& parts, SampleSpan samples) {
     const SampleSpan missing = missing_in(parts, samples);
@@ -39,6 +42,10 @@ PlanStatus status_of(const std::filesystem::path& folder, const RenderPlan& plan
     for (size_t i = 0; i < plan.looks.size(); ++i) {
         status.looks.push_back(look_progress(folder, plan, i, planned[i]));
         measured_seconds += seconds_of_samples(status.looks.back().parts, measured_samples);
+        if (!plan.in_rounds() || plan.looks[i].finished) continue;
+        ++status.unfinished;
+        // Known before their tasks are: the samples behind the pilot.
+        if (plan.error == 0) status.planned += plan.spp - planned[i];
     }
     status.seconds = measured_seconds;
     for (size_t i = 0; i < plan.tasks.size(); ++i) {
@@ -67,21 +74,17 @@ PlanStatus status_of(const std::filesystem::path& folder, const RenderPlan& plan
 OrderedJson status_json(const std::filesystem::path& folder, const RenderPlan& plan, const PlanStatus& status) {
     const Workload work{int64_t(plan.looks.size()), plan.spp, plan.chunk};
     const std::vector<Scaling> table = scaling_table(plan.costs, work);
-    OrderedJson json{{"plan", folder.string()},
-                     {"version", plan.version},
-                     {"tasks", status.tasks},
-                     {"done", status.tasks - int64_t(status.missing.size())},
-                     {"running", status.running},
-                     {"samples", status.samples},
-                     {"planned", status.planned},
-                     {"seconds", status.seconds},
-                     {"seconds_left", status.seconds_left}};
+    OrderedJson json{{"plan", folder.string()},   {"version", plan.version},
+                     {"tasks", status.tasks},     {"done", status.tasks - int64_t(status.missing.size())},
+                     {"running", status.running}, {"samples", status.samples},
+                     {"planned", status.planned}, {"unfinished", status.unfinished},
+                     {"seconds", status.seconds}, {"seconds_left", status.seconds_left}};
     json["looks"] = OrderedJson::array();
     for (size_t i = 0; i < status.looks.size(); ++i) {
         const LookProgress& look = status.looks[i];
         json["looks"].push_back({{"name", plan.looks[i].name},
                                  {"samples", look.last},
-                                 {"planned", look.planned},
+                                 {"planned", wanted_samples(plan, look)},
                                  {"merged", look.merged_samples},
                                  {"error", look.error.empty() ? OrderedJson() : OrderedJson(look.error)}});
     }
@@ -102,12 +105,15 @@ std::string status_text(const RenderPlan& plan, const PlanStatus& status) {
                      fmt::format("{} of {} tasks, {} running", status.tasks - int64_t(status.missing.size()), status.tasks, status.running),
                      80) +
         "\n";
-    if (!status.complete())
+    if (status.missing.empty() && status.unfinished > 0)
+        text += fmt::format("the round is done; looks that are not finished: {}; `blush plan resume` begins the next round\n",
+                            status.unfinished);
+    else if (!status.complete())
         text += fmt::format("about {} left {}\n", duration_text(status.seconds_left),
                             status.running > 0 ? "with the workers that run now" : "for one worker");
     for (size_t i = 0; i < std::min(status.looks.size(), shown_looks); ++i) {
         const LookProgress& look = status.looks[i];
-        text += fmt::format("{:<32} {:>8} of {} samples", plan.looks[i].name, look.last, look.planned);
+        text += fmt::format("{:<32} {:>8} of {} samples", plan.looks[i].name, look.last, wanted_samples(plan, look));
         if (look.merged_samples > 0)
             text += fmt::format(", merged to {}, error {}", look.merged_samples, look.error.empty() ? "not known" : look.error);
         text += "\n";

@@ -24,13 +24,15 @@ struct PlanStatus {
     double seconds = 0;               // of rendering, of the parts that count
     double seconds_left = 0;          // on the workers that run now, or on one
     std::vector<FailedTask> failed;
+    int64_t unfinished = 0; // looks of a plan in rounds for which another round may follow
     double fraction() const { return planned > 0 ? double(samples) / double(planned) : 0; }
-    bool complete() const { return missing.empty(); }
+    bool complete() const { return missing.empty() && unfinished == 0; }
 };
 
 PlanStatus status_of(const std::filesystem::path& folder, const RenderPlan& plan);
 
-// {plan, version, tasks, done, running, samples, planned, seconds_left, looks: [{name, samples, planned, merged, error}], failed:
+// {plan, version, tasks, done, running, samples, planned, unfinished, seconds_left, looks: [{name, samples, planned, merged, error}],
+// failed:
 // [{task, look, line}], scaling: {chunk, knee, overhead, table: [{workers, seconds, speedup, efficiency}]}}
 OrderedJson status_json(const std::filesystem::path& folder, const RenderPlan& plan, const PlanStatus& status);
 // Several lines for a terminal.

@@ -16,14 +16,6 @@ namespace {
 constexpr uint64_t max_bytes = uint64_t(256) << 20;
 constexpr int max_side = 65536;
 
-std::string hash_of(const AllocationFile& a) {
-    Hash64 hash;
-    hash.array(a.scene_hash);
-    for (const int side : {a.width, a.height}) hash.word(uint64_t(side));
-    for (const std::vector<double>& half : a.shares) hash.array(half);
-    return fmt::format("{:016x}", hash.value());
-}
-
 bool read_shares(const Json& json, std::vector<double>& shares) {
     if (!json.is_array()) return false;
     for (const Json& item : json)
@@ -33,9 +25,17 @@ bool read_shares(const Json& json, std::vector<double>& shares) {
 
 } // namespace
 
+std::string allocation_hash(const AllocationFile& a) {
+    Hash64 hash;
+    hash.array(a.scene_hash);
+    for (const int side : {a.width, a.height}) hash.word(uint64_t(side));
+    for (const std::vector<double>& half : a.shares) hash.array(half);
+    return fmt::format("{:016x}", hash.value());
+}
+
 Result<void> write_allocation(const std::filesystem::path& file, const AllocationFile& a) {
     const Json json{{"allocation", 1},    {"scene_hash", a.scene_hash}, {"width", a.width},
-                    {"height", a.height}, {"hash", hash_of(a)},         {"shares", {a.shares[0], a.shares[1]}}};
+                    {"height", a.height}, {"hash", allocation_hash(a)}, {"shares", {a.shares[0], a.shares[1]}}};
     return write_file(file, json_text(json) + "\n");
 }
 
@@ -56,7 +56,7 @@ Result<AllocationFile> read_allocation(const std::filesystem::path& file) {
                       read_json(member("height"), a.height) && read_json(member("hash"), hash) && shares.is_array() && shares.size() == 2 &&
                       read_shares(shares[0], a.shares[0]) && read_shares(shares[1], a.shares[1]);
     if (!read) return Error{name, "a member is missing or has another type", ""};
-    if (hash != hash_of(a)) return Error{name, "damaged: its hash differs", "hash"};
+    if (hash != allocation_hash(a)) return Error{name, "damaged: its hash differs", "hash"};
     SampleAllocation fits;
     if (a.width < 1 || a.height < 1 || a.width > max_side || a.height > max_side) return Error{name, "invalid size", "width"};
     fits.reset(a.width, a.height);

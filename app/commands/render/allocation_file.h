@@ -17,7 +17,9 @@ struct AllocationFile {
     bool operator==(const AllocationFile&) const = default;
 };
 
-// JSON with a hash of the content. Errors: not writable.
+// Of the content, 16 hexadecimal digits.
+std::string allocation_hash(const AllocationFile& allocation);
+// JSON with this hash. Errors: not writable.
 Result<void> write_allocation(const std::filesystem::path& file, const AllocationFile& allocation);
 // Errors: unreadable, not such a file, damaged (its hash differs), shares that do not fit the size.
 Result<AllocationFile> read_allocation(const std::filesystem::path& file);

@@ -218,7 +218,6 @@ TEST(Plan, UsageErrorsExitWithTwo) {
     refused({"-o", output}, 2, "needs a SCENE or --snapshots");
     refused({scene}, 2, "plan needs -o DIR");
     refused({scene, "-o", output, "--chunk", "24"}, 2, "power of two");
-    refused({scene, "-o", output, "--adaptive", "on"}, 2, "--adaptive on cannot be planned");
     refused({scene, "-o", output, "--samples", "0:4"}, 2, "--samples cannot be planned");
     refused({scene, "-o", output, "--denoise", "fast"}, 2, "--denoise cannot be planned");
     refused({scene, "-o", output, "--layers", "depths"}, 2, "unknown layer");

@@ -98,6 +98,9 @@ TEST(PlanFile, ErrorsSayWhere) {
         {"/looks/0/scene", 1, "looks[0].scene"},
         {"/looks/0/scene", -1, "looks[0].scene"},
         {"/looks/0/settings/adaptive", true, "looks[0].settings"},
+        {"/adaptive", "on", "adaptive"},
+        {"/adaptive", true, "looks[0].settings"},
+        {"/looks/0/allocation", "00ff", "looks[0].allocation"},
         {"/looks/0/settings/size", "0x0", "looks[0].settings"},
         {"/looks/0/edits", "text", "looks[0].edits"},
         {"/tasks/1/look", "missing-look", "tasks[1].look"},
@@ -123,6 +126,28 @@ TEST(PlanFile, ErrorsSayWhere) {
         const Result<RenderPlan> read = read_plan(folder.path());
         ASSERT_FALSE(read) << path;
         EXPECT_NE(read.error().text().find(where), std::string::npos) << path << ": " << read.error().text();
+    }
+}
+
+// The allocation is decided from the halves of the pilot: a task across their ends would be refused after it was rendered.
+TEST(PlanFile, AdaptiveTasksEndAtTheHalvesOfThePilot) {
+    const TemporaryFolder folder;
+    RenderPlan plan = some_plan();
+    plan.adaptive = true;
+    for (PlanLook& look : plan.looks) look.settings.adaptive = true;
+    plan.looks[1].allocation = "00ff";
+    plan.tasks = {{0, {0, 8}}, {0, {8, 16}}, {1, {3, 8}}, {1, {16, 24}}};
+    ASSERT_TRUE(write_plan(folder.path(), plan));
+    const Result<RenderPlan> read = read_plan(folder.path());
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_TRUE(read->adaptive && read->looks[0].settings.adaptive && read->in_rounds());
+    EXPECT_EQ(read->looks[1].allocation, "00ff");
+    for (const SampleSpan across : {SampleSpan{0, 9}, SampleSpan{7, 16}, SampleSpan{15, 17}}) {
+        plan.tasks[1].samples = across;
+        ASSERT_TRUE(write_plan(folder.path(), plan));
+        const Result<RenderPlan> refused = read_plan(folder.path());
+        ASSERT_FALSE(refused) << across.first;
+        EXPECT_NE(refused.error().text().find("tasks[1].samples"), std::string::npos) << refused.error().text();
     }
 }
 
