@@ -198,6 +198,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::bounces, true, nullptr, c.ui.bounces.open);
     item(c, Command::convergence, true, nullptr, c.ui.convergence.open);
     item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
+    item(c, Command::strategies, true, nullptr, c.ui.strategies.open);
     item(c, Command::health, true, nullptr, c.ui.health.open);
 }
 
