@@ -299,6 +299,7 @@ constexpr CommandAction command_actions[] = {
     {Command::bleed, toggle_bleed},
     {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
     {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
+    {Command::strategies, [](PanelContext& c) { toggle_instrument(c, "strategies"); }},
     {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},
 };
 

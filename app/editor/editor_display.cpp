@@ -16,6 +16,7 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
     const auto shader = color_.display_shader(wanted);
     if (!shader) return toasts.fail(shader.error().text());
     thumbnails.set_shader(*shader);
+    strategies_.set_shader(*shader);
     if (const auto set = viewport.set_display_shader(*shader); !set) toasts.fail(set.error().text());
     int64_t bytes = 0;
     for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
@@ -23,6 +24,11 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
                        true,      "the image is shown through it",
                        bytes,     std::chrono::duration<double>(Clock::now() - begin).count()};
     feature_report_.clear();
+}
+
+ImTextureID EditorDisplay::strategies(UiState& ui, const ViewSettings& view) {
+    if (!strategies_.update(ui.strategies, display_parameters_of(view))) ui.seconds_to_next_frame = 0;
+    return strategies_.texture();
 }
 
 void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {

@@ -3,6 +3,7 @@
 #include "ui/panels/panels.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
+#include "ui/widgets/segments.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/widgets/wrapped_text.h"
@@ -13,29 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 namespace blush {
 namespace {
 
 using Kind = ConvergencePoint::Kind;
-
-// A segmented control. Returns the index of the clicked button, or `chosen`.
-int segments(PanelContext& c, const char* scope, std::initializer_list<const char*> names, int chosen, const char* tip) {
-    int i = 0, result = chosen;
-    for (const char* name : names) {
-        if (i > 0) ImGui::SameLine(0, 1);
-        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(i == chosen ? ImGuiCol_ButtonActive : ImGuiCol_FrameBg));
-        ImGui::PushStyleColor(ImGuiCol_Text, i == chosen ? tone::text : tone::dim_text);
-        if (ImGui::Button(name)) result = i;
-        ImGui::PopStyleColor(2);
-        c.ui.probe.record_last_item(fmt::format("Convergence/{}/{}", scope, name));
-        tip_for_last_item(c.ui, tip);
-        ++i;
-    }
-    return result;
-}
 
 void toggle(PanelContext& c, const char* name, bool& value, const char* tip) {
     same_line_if_fits(ImGui::GetFrameHeightWithSpacing() + ImGui::CalcTextSize(name).x, ImGui::GetFontSize());
@@ -45,13 +29,14 @@ void toggle(PanelContext& c, const char* name, bool& value, const char* tip) {
 }
 
 void draw_settings(PanelContext& c, ConvergenceView& view) {
+    static constexpr const char *metrics[] = {"RMSE", "relMSE"}, *axes[] = {"Seconds", "Samples"};
     const float em = ImGui::GetFontSize();
     view.metric =
-        ErrorMetric(segments(c, "Error", {"RMSE", "relMSE"}, int(view.metric),
+        ErrorMetric(segments(c.ui, "Convergence/Error", metrics, int(view.metric),
                              "RMSE: root mean squared error, in the units of the image. relMSE: mean of the squared error divided by the "
                              "squared value, so dark regions count as much as bright ones."));
     same_line_if_fits(em * 10, em);
-    view.axis = ProgressAxis(segments(c, "Over", {"Seconds", "Samples"}, int(view.axis), "The x axis of the chart."));
+    view.axis = ProgressAxis(segments(c.ui, "Convergence/Over", axes, int(view.axis), "The x axis of the chart."));
     same_line_if_fits(em * 9, em);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Target");

@@ -29,6 +29,14 @@ void open_roulette(PanelContext& c, bool open) {
     if (!open) c.ui.roulette.runner.reset(); // it measures as long as the panel is open
 }
 
+void open_strategies(PanelContext& c, bool open) {
+    c.ui.strategies.open = open;
+    if (open) return;
+    // It renders as long as the panel is open.
+    c.ui.strategies.runner.reset();
+    c.ui.strategies.state = {};
+}
+
 void open_bleed(PanelContext& c, bool open) {
     c.ui.bleed.open = open;
     if (open) return;
@@ -52,6 +60,8 @@ const Instrument table[] = {
     by_flag<[](auto& ui) { return &ui.bounces.open; }>("bounces", "Bounces", guide_page::lab, right, 24, 24, draw_bounces_panel),
     {"roulette", "Roulette lab", guide_page::lab, right, 28, 44, true, [](const PanelContext& c) { return c.ui.roulette.open; },
      open_roulette, draw_roulette_panel},
+    {"strategies", "Strategies", guide_page::strategies, bottom, 60, 26, true, [](const PanelContext& c) { return c.ui.strategies.open; },
+     open_strategies, draw_strategies_panel},
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", guide_page::measuring, bottom, 36, 16, draw_meters_panel),
     by_flag<[](auto& ui) { return &ui.paths.open; }>("paths", "Paths", guide_page::paths, right, 26, 48, draw_paths_panel),

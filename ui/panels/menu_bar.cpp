@@ -114,6 +114,7 @@ void draw_edit_menu(PanelContext& c) {
     item(c, Command::undo, d.can_undo(), d.can_undo() ? named("Undo", d.undo_label()).c_str() : nullptr);
     item(c, Command::redo, d.can_redo(), d.can_redo() ? named("Redo", d.redo_label()).c_str() : nullptr);
     item(c, Command::history, true, nullptr, c.ui.show_history);
+    item(c, Command::undelete_snapshot, c.ui.snapshots.can_put_back());
     ImGui::Separator();
     const bool selected = c.scene().nodes.contains(c.ui.selected);
     item(c, Command::duplicate, selected);
@@ -182,7 +183,6 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::render_all, c.project().render.region != ImageRegion{});
     item(c, Command::pause, true, nullptr, c.ui.paused);
     ImGui::Separator();
-    item(c, Command::undelete_snapshot, c.ui.snapshots.can_put_back());
     const Comparison::Mode mode = c.ui.snapshots.compare.mode;
     const bool any = !c.ui.snapshots.list.empty();
     item(c, Command::compare_wipe, any, nullptr, mode == Comparison::Mode::wipe);
@@ -198,6 +198,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::bounces, true, nullptr, c.ui.bounces.open);
     item(c, Command::convergence, true, nullptr, c.ui.convergence.open);
     item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
+    item(c, Command::strategies, true, nullptr, c.ui.strategies.open);
     item(c, Command::health, true, nullptr, c.ui.health.open);
 }
 

@@ -12,6 +12,7 @@ namespace blush {
 
 class Fields;
 struct RouletteReport;
+struct StrategyReport;
 
 // Regions of the layout, drawn into the current ImGui window.
 void draw_menu_bar(PanelContext& c);
@@ -55,6 +56,8 @@ void draw_health_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: the measurements
+void draw_strategies_panel(PanelContext& c);
+void draw_strategy_report(PanelContext& c, const StrategyReport* report); // that panel without its job; null: no round yet
 void draw_light_table(PanelContext& c);
 void draw_convergence_panel(PanelContext& c);
 // Runs the meters, even if their panel is closed: the image shows their readings.

@@ -24,12 +24,13 @@ constexpr const char* measuring = "guide/display.html#measuring-the-image";
 constexpr const char* convergence = "guide/convergence.html";
 constexpr const char* chart = "guide/convergence.html#the-chart";
 constexpr const char* lab = "guide/convergence.html#roulette-lab-and-health";
+constexpr const char* strategies = "guide/strategies.html";
 constexpr const char* paths = "guide/paths.html";
 constexpr const char* snapshots = "guide/snapshots.html#keep";
 constexpr const char* comparison = "guide/snapshots.html#compare";
 
-constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,  viewport,  status_bar, file_browser, docks,
-                               light_kinds, light_units, light_table, light_mix, bleed,     materials,  display,      camera,
-                               measuring,   convergence, chart,       lab,       snapshots, comparison, paths,        lessons};
+constexpr const char* all[] = {first_steps, own_file,    timeline,  outliner,   viewport,  status_bar, file_browser, docks,     light_kinds,
+                               light_units, light_table, light_mix, bleed,      materials, display,    camera,       measuring, convergence,
+                               chart,       lab,         snapshots, comparison, paths,     lessons,    strategies};
 
 } // namespace blush::guide_page

@@ -76,6 +76,7 @@ constexpr Shortcut table[] = {
     {Command::bounces, "View", "Bounces", in_menu_only},
     {Command::health, "View", "Health", in_menu_only},
     {Command::roulette, "View", "Roulette lab", in_menu_only},
+    {Command::strategies, "View", "Strategies", in_menu_only},
     {Command::convergence, "View", "Convergence", plain('C')},
     {Command::snapshot_strip, "Look", "Snapshots", plain('K')},
     {Command::undelete_snapshot, "Look", "Restore deleted snapshot", in_menu_only},

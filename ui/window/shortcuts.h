@@ -99,6 +99,7 @@ enum class Command {
     previous_aov,
     health,
     roulette,
+    strategies,
     measure,
     meters,
     paths,

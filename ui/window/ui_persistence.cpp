@@ -20,6 +20,9 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("bounces.bounce", ui.bounces.bounce, 0, default_bounce_planes);
     visit("health.map", ui.health.map, false, true);
     visit("roulette.map", ui.roulette.map, RouletteView::Map::none, RouletteView::Map::survival);
+    visit("strategies.show", ui.strategies.show, StrategiesView::Show::image, StrategiesView::Show::mis_variance);
+    visit("strategies.metric", ui.strategies.metric, ErrorMetric::rmse, ErrorMetric::relmse);
+    visit("strategies.budget", ui.strategies.budget, StrategyBudget::time, StrategyBudget::samples);
     visit("snapshots", ui.snapshots.open, false, true);
     visit("compare.wipe", ui.snapshots.compare.wipe, 0.f, 1.f);
     visit("compare.kind", ui.snapshots.compare.kind, DifferenceKind::absolute, DifferenceKind::flip);

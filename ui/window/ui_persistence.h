@@ -14,8 +14,8 @@
 // |   outliner, unfolded group of the mix, snapshots            |                                            |   restore snapshot  |
 // |   in the strip, open instruments                            |                                            |                     |
 // | convergence runs                                            | CSV, SVG or PNG, by its Export             | the panel's own     |
-// | import report, health, results of roulette lab, meters and  | not saved: read again from the file, or    |                     |
-// |   bleed probe                                               |   measured again                           |                     |
+// | import report, health, results of roulette lab, strategies, | not saved: read again from the file, or    |                     |
+// |   meters and bleed probe                                    |   measured again                           |                     |
 // | tool, drag, placing, light camera, traced paths, dialogs,   | not saved: temporary                       | Esc                 |
 // |   comparison, wipes of the two piles, place of the bleed    |                                            |                     |
 // |   probe, pause, playback, text being typed,                 |                                            |                     |

@@ -23,6 +23,7 @@
 #include "ui/views/paths_view.h"
 #include "ui/views/roulette_view.h"
 #include "ui/views/scopes_view.h"
+#include "ui/views/strategies_view.h"
 #include "ui/views/time_view.h"
 #include "ui/widgets/value_editing.h"
 #include "ui/window/dock.h"
@@ -177,6 +178,7 @@ struct UiState {
     HealthView health;
     ImportReportView import_report;
     RouletteView roulette;
+    StrategiesView strategies;
     SnapshotsView snapshots;
     std::shared_ptr<const Difference> difference; // of the compared images, as last computed; null: none
     ScopesView scopes;

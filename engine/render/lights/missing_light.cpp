@@ -18,14 +18,6 @@ bool has_size(const Light& light) {
     }
 }
 
-bool has_zero_size_light(const Scene& scene, const std::vector<Id<Node>>& nodes) {
-    WorldTransforms transforms(scene);
-    return std::ranges::any_of(nodes, [&](Id<Node> id) {
-        const Light* light = scene.lights.find(scene.nodes.find(id)->light);
-        return light->enabled && light->intensity > 0 && !has_size(*light) && transforms(id).visible;
-    });
-}
-
 bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < smooth_roughness; }
 
 } // namespace
@@ -41,8 +33,16 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
     return surfaces;
 }
 
+int count_zero_size_lights(const Scene& scene, const std::vector<Id<Node>>& nodes) {
+    WorldTransforms transforms(scene);
+    return int(std::ranges::count_if(nodes, [&](Id<Node> id) {
+        const Light* light = scene.lights.find(scene.nodes.find(id)->light);
+        return light->enabled && light->intensity > 0 && !has_size(*light) && transforms(id).visible;
+    }));
+}
+
 std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces) {
-    if (!surfaces.mirror || !has_zero_size_light(scene, nodes)) return {};
+    if (!surfaces.mirror || count_zero_size_lights(scene, nodes) == 0) return {};
     const char* by = surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
     return std::string("some light cannot be found: that of point, spot and sun lights of zero size, ") + by +
            "; give these lights a radius or an angle, or the material some roughness";

@@ -16,6 +16,9 @@ struct SmoothSurfaces {
 };
 // `used`: the materials of all rendered objects, each once or more.
 SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material>>& used);
+// Number of enabled, visible lights without a size, which no ray hits: point and spot lights without radius, suns without angle.
+// `nodes`: those with lights (expanded_lights.h).
+int count_zero_size_lights(const Scene& scene, const std::vector<Id<Node>>& nodes);
 // User message about the missing light and how to get it back; empty if all light can be found. `nodes`: those with lights
 // (expanded_lights.h).
 std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces);
