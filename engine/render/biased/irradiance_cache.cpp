@@ -1,6 +1,7 @@
 #include "render/biased/irradiance_cache.h"
 
 #include "render/biased/cells.h"
+#include "render/biased/irradiance_gradient.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -16,8 +17,10 @@ constexpr uint32_t fallback_replicate = 0x80000000u; // apart from those of reco
 
 } // namespace
 
-Vec3d IrradianceRecord::irradiance(const Vec3d& n) const {
-    return {std::max(0.0, dot(flux[0], n)), std::max(0.0, dot(flux[1], n)), std::max(0.0, dot(flux[2], n))};
+Vec3d IrradianceRecord::irradiance(const Vec3d& at, const Vec3d& n) const {
+    const Vec3d to = at - position;
+    const auto channel = [&](size_t k) { return std::max(0.0, dot(flux[k], n) + dot(gradient[k], to)); };
+    return {channel(0), channel(1), channel(2)};
 }
 
 double IrradianceRecord::weight(const Vec3d& at, const Vec3d& n) const {
@@ -39,7 +42,7 @@ IrradianceCache::Interpolated IrradianceCache::interpolate(const DiffusePoint& p
                 const double weight = records_[i].weight(at, normal);
                 if (!(weight * double(options_.accuracy) > 1)) continue;
                 result.weight += weight;
-                result.sum = result.sum + records_[i].irradiance(normal) * weight;
+                result.sum = result.sum + records_[i].irradiance(at, normal) * weight;
             }
         });
     }
@@ -65,6 +68,7 @@ IrradianceRecord IrradianceCache::measure(const KernelContext& context, const Di
     }
     const double radius = inverse_distances > 0 ? double(count) / inverse_distances : extent_;
     record.radius = std::clamp(radius, 1e-3 * extent_, 0.5 * extent_);
+    record.gradient = translational_gradient(rays, point.receiver.normal, 1e-3 * extent_);
     return record;
 }
 

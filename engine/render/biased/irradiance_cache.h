@@ -1,5 +1,5 @@
 // The irradiance cache: indirect irradiance at a few points, interpolated between them (Ward, Rubinstein and Clear 1988, "A ray tracing
-// solution for diffuse interreflection"), with its rotational gradient (Ward and Heckbert 1992). The records are made before the first
+// solution for diffuse interreflection"), with its gradients (Ward and Heckbert 1992). The records are made before the first
 // sample, level by level over the picture, so that they do not depend on threads; where none is near, paths are traced.
 #pragma once
 
@@ -15,9 +15,11 @@ namespace blush {
 
 struct IrradianceRecord {
     Vec3d position, normal;
-    double radius = 1;           // harmonic mean of the distances that its paths see, metres
-    std::array<Vec3d, 3> flux{}; // RGB; the irradiance for a normal n nearby is its product with n
-    Vec3d irradiance(const Vec3d& n) const;
+    double radius = 1;               // harmonic mean of the distances that its paths see, metres
+    std::array<Vec3d, 3> flux{};     // RGB; the irradiance for a normal n nearby is its product with n
+    std::array<Vec3d, 3> gradient{}; // RGB; change of the irradiance per metre, by irradiance_gradient.h
+    // Extrapolated to another point and normal; never negative.
+    Vec3d irradiance(const Vec3d& at, const Vec3d& n) const;
     // Inverse of Ward's estimate of the error at another point; 0 if that lies behind.
     double weight(const Vec3d& at, const Vec3d& n) const;
 };

@@ -145,11 +145,11 @@ TEST(IrradianceCache, ErrorFallsWithTheReachOfItsRecords) {
 
 TEST(BiasedIntegrators, AreCaughtAsBiased) {
     const Scene scene = shipped_scene("cornell");
-    RenderSettings settings = settings_for(64, 64, 1024);
+    RenderSettings settings = settings_for(64, 64, 4096);
     settings.seed = 1;
     const MeasuredImage reference = measured_image(*rendered(scene, settings, "path"));
     settings.seed = 0;
-    settings.spp = 128;
+    settings.spp = 512;
     EXPECT_FALSE(test_bias(measured_image(*rendered(scene, settings, "path")), reference).biased);
     for (const char* text : {"ambient", "light-probes", "irradiance-cache", "photon-map"})
         EXPECT_TRUE(test_bias(measured_image(*rendered(scene, settings, text)), reference).biased) << text;
