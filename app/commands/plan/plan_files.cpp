@@ -39,6 +39,102 @@ std::string sheet_script(const std::filesystem::path& folder, const RenderPlan& 
         plan.program, shell_quoted(folder.string()));
 }
 
+std::string replaced(std::string text, std::string_view what, const std::string& with) {
+    for (size_t at = text.find(what); at != text.npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+    return text;
+}
+
+std::string local_script(const std::filesystem::path& folder, const RenderPlan& plan) {
+    constexpr const char* text = R"sh(#!/bin/sh
+# Renders on this machine what is missing of this plan, round after round, then makes the contact sheet. While tasks run, it merges what
+# there is, so that images improve. Run it again whenever something is missing. SIGTERM ends it: tasks keep their samples so far.
+#
+#   ./run-local.sh [--jobs N] [--merge-every SECONDS]
+#
+# N processes share the processors; without it one for each socket. The process id is in local.pid while it runs.
+set -eu
+cd @FOLDER@
+jobs=$(lscpu -p=SOCKET 2>/dev/null | grep -v '^#' | sort -u | wc -l) || jobs=1
+pause=20
+while [ $# -gt 0 ]; do
+    case $1 in
+        --jobs) jobs=${2:?--jobs needs a number} ;;
+        --merge-every) pause=${2:?--merge-every needs seconds} ;;
+        *) echo "run-local.sh: $1 is not an option" >&2; exit 2 ;;
+    esac
+    shift 2
+done
+[ "$jobs" -gt 0 ] || jobs=1
+threads=$((($(nproc) + jobs - 1) / jobs))
+# Tasks inherit the lock: while one of them runs, no other script can begin.
+exec 9>local.lock
+flock -n 9 || {
+    echo "run-local.sh: this plan is being rendered already, see local.pid" >&2
+    exit 1
+}
+echo $$ >local.pid
+
+# worker K: every jobs-th line of local-tasks.txt, from line K on.
+worker() {
+    task=
+    trap 'trap "" TERM; [ -z "$task" ] || { kill -TERM "$task" 2>/dev/null; wait "$task"; }; exit 143' TERM
+    line=$1
+    while command=$(sed -n "${line}p" local-tasks.txt) && [ -n "$command" ]; do
+        eval "$command --quiet --threads $threads &"
+        task=$!
+        wait "$task" || :
+        task=
+        line=$((line + jobs))
+    done
+}
+merger() {
+    while sleep "$pause"; do
+        begun=$(date +%s)
+        @PROGRAM@ plan merge . --partial --quiet || :
+        # At most a twentieth of the time goes into merging.
+        sleep $((20 * ($(date +%s) - begun)))
+    done
+}
+pids=
+stop() {
+    trap '' TERM INT HUP
+    for pid in $pids; do kill -TERM "$pid" 2>/dev/null || :; done
+    wait
+    rm -f local.pid
+    exit 143
+}
+trap stop TERM INT
+trap 'rm -f local.pid' EXIT
+
+: >local-round.txt
+while @PROGRAM@ plan resume . --quiet && [ -s missing.txt ]; do
+    cmp -s missing.txt local-round.txt && {
+        echo "run-local.sh: the last round has rendered nothing; see blush plan status" >&2
+        exit 1
+    }
+    cp missing.txt local-round.txt
+    cp missing.txt local-tasks.txt
+    pids=
+    k=1
+    while [ "$k" -le "$jobs" ]; do
+        worker "$k" &
+        pids="$pids $!"
+        k=$((k + 1))
+    done
+    workers=$pids
+    # Not the lock: a pause must not outlast the script.
+    merger >/dev/null 2>&1 9>&- &
+    merges=$!
+    pids="$pids $merges"
+    for pid in $workers; do wait "$pid" || :; done
+    kill "$merges" 2>/dev/null || :
+    wait "$merges" || :
+done
+@PROGRAM@ plan merge .
+)sh";
+    return replaced(replaced(text, "@PROGRAM@", plan.program), "@FOLDER@", shell_quoted(folder.string()));
+}
+
 std::string submit_script(const std::filesystem::path& folder, const RenderPlan& plan) {
     constexpr const char* text = R"sh(#!/bin/sh
 # Submits to Slurm what is missing of this plan, as job arrays, and after them the merges. Run it again whenever something is missing.
@@ -85,10 +181,7 @@ sheet=$(sbatch --parsable --job-name=@NAME@-sheet --dependency=afterany$merges -
 echo "contact sheet: job ${sheet%%;*}"
 )sh";
     std::string script = text;
-    const auto replace = [&](std::string_view what, const std::string& with) {
-        for (size_t at = script.find(what); at != script.npos; at = script.find(what, at + with.size()))
-            script.replace(at, what.size(), with);
-    };
+    const auto replace = [&](std::string_view what, const std::string& with) { script = replaced(std::move(script), what, with); };
     std::string rounds;
     if (plan.in_rounds()) {
         rounds = "# `plan resume` decides after each round whether there is another one. Nothing new means the end, or tasks that fail.\n"
@@ -112,11 +205,6 @@ echo "contact sheet: job ${sheet%%;*}"
 }
 
 std::string explanation(const RenderPlan& plan) {
-    const std::string on_this_machine =
-        plan.in_rounds() ? "On this machine, round by round:             cd DIR; while [ -s missing.txt ]; do sh missing.txt && blush plan "
-                           "resume . || break; done; blush plan merge .\n"
-                         : "On this machine, one task after the other:   sh commands.txt; blush plan merge DIR\n"
-                           "On this machine, with GNU parallel:          parallel -j 1 <commands.txt; blush plan merge DIR\n";
     const std::string until = plan.error > 0 ? fmt::format("until the error is {:g}, at most {} samples per pixel", plan.error, plan.spp)
                                              : fmt::format("{} samples per pixel", plan.spp);
     return fmt::format("A render plan of blush {}. Looks: {}, {}. Tasks: {} of {} samples.\n"
@@ -126,14 +214,15 @@ std::string explanation(const RenderPlan& plan) {
                        "one again is free\n"
                        "missing.txt      those whose samples are missing, as of the last `blush plan resume`\n"
                        "merge.txt        one command a line, per look, after the tasks\n"
+                       "run-local.sh     renders what is missing on this machine, and merges\n"
                        "submit-slurm.sh  submits what is missing and then the merges to Slurm; slurm-*.sh are its jobs\n"
                        "scenes           copies of the scenes, if they were gathered\n"
                        "parts            sums of samples; logs, one per task; merged, the images; allocations, of adaptive sampling\n"
                        "\n"
-                       "{}"
+                       "On this machine, until it is done:           ./run-local.sh\n"
                        "How it stands:                               blush plan status DIR --watch\n"
                        "What is missing, as a list of commands:      blush plan resume DIR\n",
-                       plan.version, plan.looks.size(), until, plan.tasks.size(), plan.chunk, on_this_machine);
+                       plan.version, plan.looks.size(), until, plan.tasks.size(), plan.chunk);
 }
 
 Result<void> write_script(const std::filesystem::path& file, const std::string& text) {
@@ -170,6 +259,7 @@ Result<void> write_plan_files(const std::filesystem::path& folder, const RenderP
     if (const Result<void> written = write_file(folder / "README.txt", explanation(plan)); !written) return written;
     if (const Result<void> written = write_script(folder / "slurm-job.sh", job_script); !written) return written;
     if (const Result<void> written = write_script(folder / "slurm-sheet.sh", sheet_script(folder, plan)); !written) return written;
+    if (const Result<void> written = write_script(folder / "run-local.sh", local_script(folder, plan)); !written) return written;
     return write_script(folder / "submit-slurm.sh", submit_script(folder, plan));
 }
 

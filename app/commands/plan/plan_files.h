@@ -1,4 +1,4 @@
-// The files of a plan beside plan.json: lists of commands for any scheduler, a script for Slurm, an explanation.
+// The files of a plan beside plan.json: lists of commands for any scheduler, scripts for this machine and for Slurm, an explanation.
 #pragma once
 
 #include "app/commands/plan/render_plan.h"
@@ -12,7 +12,7 @@ std::string shell_quoted(const std::string& text);
 std::string task_command(const std::filesystem::path& folder, const RenderPlan& plan, size_t number);
 std::string merge_command(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look);
 
-// Writes commands.txt, merge.txt, README.txt, submit-slurm.sh and its jobs, slurm-*.sh. `folder` is absolute.
+// Writes commands.txt, merge.txt, README.txt, run-local.sh, submit-slurm.sh and its jobs, slurm-*.sh. `folder` is absolute.
 Result<void> write_plan_files(const std::filesystem::path& folder, const RenderPlan& plan);
 // Writes missing.txt: the commands of these tasks.
 Result<void> write_missing(const std::filesystem::path& folder, const RenderPlan& plan, const std::vector<size_t>& numbers);

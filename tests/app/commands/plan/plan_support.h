@@ -64,11 +64,15 @@ inline std::string scene_copy(const TemporaryFolder& folder, const std::string& 
 // A process that is not waited for yet.
 class Started {
 public:
-    // `most_bytes`: limit of a file it writes, as on a full disk; 0: none.
-    explicit Started(Arguments arguments, uint64_t most_bytes = 0) {
-        arguments.insert(arguments.begin(), BLUSH_BINARY);
+    struct Program {
+        Arguments words; // its path and arguments
+    };
+    // Of the built program. `most_bytes`: limit of a file it writes, as on a full disk; 0: none.
+    explicit Started(const Arguments& arguments, uint64_t most_bytes = 0)
+        : Started(Program{joined({BLUSH_BINARY}, arguments)}, most_bytes) {}
+    explicit Started(Program program, uint64_t most_bytes = 0) {
         std::vector<char*> words;
-        for (std::string& argument : arguments) words.push_back(argument.data());
+        for (std::string& word : program.words) words.push_back(word.data());
         words.push_back(nullptr);
         pid_ = fork();
         if (pid_ != 0) return;

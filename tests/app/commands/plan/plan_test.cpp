@@ -40,7 +40,10 @@ TEST(Plan, ExplainsItself) {
     for (const char* cost : {"start", "sample", "write", "read", "memory_mib", "part_mib"}) EXPECT_GT(json["measured"][cost], 0) << cost;
     EXPECT_EQ(json["scaling"]["table"].front()["workers"], 1);
     EXPECT_EQ(json["scaling"]["table"].back()["workers"], 10000);
-    EXPECT_EQ(test::shell("sh -n '" + plan.folder + "/submit-slurm.sh' && sh -n '" + plan.folder + "/slurm-job.sh'").exit_code, 0);
+    EXPECT_EQ(test::shell("sh -n '" + plan.folder + "/submit-slurm.sh' && sh -n '" + plan.folder + "/slurm-job.sh' && sh -n '" +
+                          plan.folder + "/run-local.sh'")
+                  .exit_code,
+              0);
     EXPECT_NE(test::text_of(plan.folder + "/README.txt").find("commands.txt"), std::string::npos);
     // A second plan does not take its place.
     const Finished again = blush({"plan", plan.scene, "-o", plan.folder});
