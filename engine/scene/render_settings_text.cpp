@@ -116,6 +116,41 @@ std::string to_string(const Roulette& roulette) {
     return text;
 }
 
+Result<MisHeuristic> parse_heuristic(std::string_view text) {
+    using Rule = MisHeuristic::Rule;
+    const Item item = split_item(text);
+    MisHeuristic h;
+    if (text == "balance") {
+        h.exponent = 1;
+        return h;
+    }
+    if (text == "maximum") {
+        h.rule = Rule::maximum;
+        return h;
+    }
+    if (item.name == "power") {
+        if (!item.has_value || (parse_number(item.value, h.exponent) && h.exponent >= 1 && h.exponent <= MisHeuristic::max_exponent))
+            return h;
+        return Error{.what = fmt::format("the exponent of the power heuristic must be a whole number from 1 to {}, not \"{}\"",
+                                         MisHeuristic::max_exponent, item.value)};
+    }
+    if (item.name == "cutoff") {
+        h.rule = Rule::cutoff;
+        if (!item.has_value || (parse_number(item.value, h.threshold) && h.threshold >= 0 && h.threshold <= 1)) return h;
+        return Error{.what = fmt::format("the threshold of the cutoff heuristic must be a number from 0 to 1, not \"{}\"", item.value)};
+    }
+    return Error{.what = fmt::format("unknown MIS heuristic \"{}\" (known: power=2, balance, cutoff=0.1, maximum)", text)};
+}
+
+std::string to_string(const MisHeuristic& heuristic) {
+    switch (heuristic.rule) {
+    case MisHeuristic::Rule::power: return heuristic.exponent == 1 ? "balance" : fmt::format("power={}", heuristic.exponent);
+    case MisHeuristic::Rule::cutoff: return fmt::format("cutoff={}", heuristic.threshold);
+    case MisHeuristic::Rule::maximum: return "maximum";
+    }
+    return {};
+}
+
 Result<Clamp> parse_clamp(std::string_view text) {
     if (text == "off") return Clamp{};
     const std::vector<std::string_view> parts = split(text, ',');

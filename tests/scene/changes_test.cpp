@@ -227,6 +227,7 @@ TEST(Diff, ViewAndSettings) {
     EXPECT_TRUE(of([](RenderSettings& r) { r.strategy = Strategy::bsdf; }).nee_changed);
     EXPECT_FALSE(of([](RenderSettings& r) { r.strategy = Strategy::light; }).nee_changed);
     EXPECT_TRUE(of([](RenderSettings& r) { r.mis_compensation = true; }).nee_changed);
+    EXPECT_EQ(seen(of([](RenderSettings& r) { r.heuristic.exponent = 1; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.filter = PixelFilter::box; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.sampler = SamplerType::random; })), integrator);
     EXPECT_EQ(seen(of([](RenderSettings& r) { r.seed = 1; })), integrator);

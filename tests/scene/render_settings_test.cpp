@@ -85,6 +85,16 @@ TEST(MaxBounces, TextRoundTrips) {
     for (const char* bad : {"", "-1", "many", "3x", "1.5", "99999999999"}) EXPECT_FALSE(parse_max_bounces(bad)) << bad;
 }
 
+TEST(MisHeuristic, TextRoundTrips) {
+    for (const char* text : {"balance", "power=2", "power=8", "cutoff=0.25", "cutoff=0", "maximum"})
+        EXPECT_EQ(to_string(*parse_heuristic(text)), text);
+    EXPECT_EQ(*parse_heuristic("power"), MisHeuristic{});
+    EXPECT_EQ(*parse_heuristic("power=1"), *parse_heuristic("balance"));
+    for (const char* bad :
+         {"", "power=0", "power=9", "power=1.5", "cutoff=-1", "cutoff=2", "cutoff=nan", "maximum=1", "balance=1", "Power"})
+        EXPECT_FALSE(parse_heuristic(bad)) << bad;
+}
+
 TEST(EnumNames, RoundTrip) {
     for (const Strategy s : {Strategy::mis, Strategy::light, Strategy::bsdf}) EXPECT_EQ(*parse_strategy(to_string(s)), s);
     for (const CausticStrategy c : {CausticStrategy::automatic, CausticStrategy::off, CausticStrategy::guiding,

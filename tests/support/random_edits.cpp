@@ -231,7 +231,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetScene
 }
 std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRender>) {
     RenderSettings r = p.render;
-    switch (whole(rng, 0, 12)) {
+    switch (whole(rng, 0, 13)) {
     case 0: r.max_bounces = whole(rng, 0, 6); break;
     case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
     case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
@@ -245,6 +245,9 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     case 10: r.mis_compensation = !r.mis_compensation; break;
     case 11: r.smooth_edges = !r.smooth_edges; break;
     case 12: r.caustics = CausticStrategy(whole(rng, 0, 4)); break;
+    case 13:
+        r.heuristic = *parse_heuristic(std::array{"power=2", "balance", "power=5", "cutoff=0.25", "maximum"}[size_t(whole(rng, 0, 4))]);
+        break;
     }
     return SetRender{r};
 }

@@ -2,6 +2,7 @@
 #include "scene/reuse_setting.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/roulette_fields.h"
+#include "ui/panels/strategies/heuristic_fields.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/presets.h"
@@ -103,6 +104,7 @@ void draw_paths(Fields& f, RenderSettings& r) {
                  "How direct light is sampled: light sampling (NEE), BSDF sampling, or both combined by multiple importance "
                  "sampling (MIS). All are unbiased; the noise differs."))
         r.strategy = Strategy(strategy);
+    if (r.strategy == Strategy::mis) draw_heuristic_fields(f, r.heuristic);
     int caustics = int(r.caustics);
     if (f.choice("Caustics", caustics, caustic_strategies,
                  "Which strategies for caustics of mirrors and glass may be used. Auto: all that a pilot finds to pay; the section "

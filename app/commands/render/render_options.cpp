@@ -183,6 +183,11 @@ void add_estimator_options(CLI::App& app, RenderOptions& o) {
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");
+    add_parsed(
+        app, "--heuristic", o.settings.heuristic, parse_heuristic,
+        "Heuristic of MIS, for comparison: power=N (N from 1 to 8), balance, cutoff=T or maximum; strategies for caustics need power=2 "
+        "[power=2]")
+        ->type_name("power=N|balance|cutoff=T|maximum");
     add_parsed(app, "--caustics", o.settings.caustics, parse_caustics,
                "Which strategies for caustics pilots may choose, for comparison: all, none, path guiding, light paths or manifold sampling "
                "[auto]")

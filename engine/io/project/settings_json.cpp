@@ -111,6 +111,7 @@ std::string render_settings_json(const RenderSettings& s) {
     json["max_bounces"] = max_bounces_text(s.max_bounces);
     json["roulette"] = to_string(s.roulette);
     json["strategy"] = to_string(s.strategy);
+    json["heuristic"] = to_string(s.heuristic);
     json["caustics"] = to_string(s.caustics);
     json["filter"] = to_string(s.filter);
     json["sampler"] = to_string(s.sampler);
@@ -173,6 +174,7 @@ Result<ParsedSettings<RenderSettings>> parse_render_settings(std::string_view te
          }},
         {"roulette", word(s.roulette, parse_roulette)},
         {"strategy", word(s.strategy, parse_strategy)},
+        {"heuristic", word(s.heuristic, parse_heuristic)},
         {"caustics", word(s.caustics, parse_caustics)},
         {"filter", word(s.filter, parse_filter)},
         {"sampler", word(s.sampler, parse_sampler)},

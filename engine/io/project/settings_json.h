@@ -12,7 +12,7 @@
 namespace blush {
 
 // {"size": "1280x720", "resolution_scale": 1.0, "spp": 64, "time": 0.0, "error": 0.0, "first_sample": 0, "seed": 0,
-//  "max_bounces": "unlimited", "roulette": "sqrt,start=3", "strategy": "mis", "caustics": "auto",
+//  "max_bounces": "unlimited", "roulette": "sqrt,start=3", "strategy": "mis", "heuristic": "power=2", "caustics": "auto",
 //  "filter": "blackman-harris", "sampler": "sobol", "energy_compensation": false, "mis_compensation": true, "adaptive": false, "reuse":
 //  "off", "smooth_edges": true, "clamp": "off", "region": [0.0, 0.0, 1.0, 1.0]}
 std::string render_settings_json(const RenderSettings& settings);

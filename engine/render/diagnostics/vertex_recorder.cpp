@@ -72,7 +72,7 @@ VertexRecorder::Shaded VertexRecorder::shade(const ReplayedVertex& replayed) con
 
 Step<float> VertexRecorder::unit_step(const ReplayedVertex& replayed, Strategy strategy) const {
     EstimatorSettings settings = context_.settings;
-    settings.strategy = strategy;
+    settings.mis.strategy = strategy;
     settings.roulette.rule = Roulette::Rule::off;
     Path<float> path = replayed.path;
     path.beta = {1, 1, 1};
@@ -124,7 +124,7 @@ void VertexRecorder::record_scattering(const ReplayedVertex& replayed, const Sha
     const bool delta = std::isinf(step.next.pdf);
     const bool rolled = step.weights.rr_applied, goes_on = step.continues;
     if (goes_on || rolled || step.non_finite) {
-        const Step<float> alone = unit_step(replayed, context_.settings.strategy);
+        const Step<float> alone = unit_step(replayed, context_.settings.mis.strategy);
         v.factor = quotient(alone.next.beta, alone.weights.arriving);
         v.pdf = step.next.pdf;
         v.roulette = rolled;

@@ -45,7 +45,7 @@ void drop_shadows_of_catchers(const KernelContext& context, CatcherScratch& scra
 } // namespace
 
 void catch_shadows(KernelContext context, std::span<const uint8_t> is_catcher, const TileJob& job, CatcherScratch& scratch) {
-    context.settings.strategy = Strategy::light; // all light by NEE: emission at ray hits is not counted
+    context.settings.mis.strategy = Strategy::light; // all light by NEE: emission at ray hits is not counted
     context.settings.reuse = {};
     TileScratch& tile = scratch.tile;
     CatcherColumns& out = scratch.columns;

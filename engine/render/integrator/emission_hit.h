@@ -6,17 +6,11 @@
 #include "render/integrator/light_path_weights.h"
 #include "render/integrator/light_sampling.h"
 #include "render/integrator/links.h"
+#include "render/integrator/mis_weights.h"
 #include "render/integrator/path.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// MIS weight of emission hit by a BSDF-sampled ray; light_pdf is the pdf of NEE for the same direction.
-template <class F> F emission_mis_weight(Strategy strategy, const F& bsdf_pdf, const F& light_pdf) {
-    const Mask<F> only_found = bsdf_pdf == F(infinity) || light_pdf == F(0.f);
-    if (strategy == Strategy::bsdf) return F(1.f);
-    if (strategy == Strategy::light) return select(only_found, F(1.f), F(0.f));
-    return select(only_found, F(1.f), power_heuristic(bsdf_pdf, light_pdf));
-}
 // True if some surface samples manifolds (manifold_sampling.h).
 template <Features S> bool samples_manifolds(const SceneTables& scene) {
     if constexpr (S.has(Feature::light_paths)) return !scene.manifolds.empty();
@@ -78,7 +72,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
                                                                            const Visit& visit) {
     const LightTables& lights = scene.lights;
     // NEE pdf for the MIS weight. Under Strategy::bsdf there is no NEE, and its tables do not exist.
-    const bool aims = settings.strategy != Strategy::bsdf;
+    const bool aims = settings.mis.strategy != Strategy::bsdf;
     const Receiver<F> from{path.ray.origin, path.normal};
     if constexpr (S.has(Feature::environment)) {
         if (bounce > 0 ? scene.environment.lights_scene : scene.environment.visible_to_camera) {
@@ -86,7 +80,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             F weight = F(1.f);
             if (aims) {
                 const F pdf = environment_nee_pdf<S, F>(scene, from, path.ray.direction, active);
-                weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
+                weight = emission_mis_weight<F>(settings.mis, path.pdf, pdf);
                 weight = beside_light_paths<S, F>(scene, weight, path, Int<F>(lights.environment), path.ray.origin, path.normal, active);
             }
             visit(lights.environment, radiance * weight, weight, active);
@@ -101,7 +95,7 @@ template <Features S, class F, class Visit> void for_each_background_light(const
             F weight = F(1.f);
             if (aims) {
                 const F pdf = cone_pdf(F(sun.cone_height)) * nee_probability<S, F>(scene, from, Int<F>(lights.suns[i]), inside);
-                weight = emission_mis_weight(settings.strategy, path.pdf, pdf);
+                weight = emission_mis_weight<F>(settings.mis, path.pdf, pdf);
                 weight = beside_light_paths<S, F>(scene, weight, path, Int<F>(lights.suns[i]), path.ray.origin, path.normal, inside);
                 weight = select(found_by_manifolds<S, F>(scene, path, Int<F>(lights.suns[i]), inside), F(0.f), weight);
             }
@@ -143,9 +137,9 @@ template <class F> F emission_profile(const SceneTables& scene, const Int<F>& li
 }
 
 // MIS weight of a triangle's emission, hit at distance t with cosine `facing`.
-template <Features S, class F> F surface_emission_mis_weight(const SceneTables& scene, Strategy strategy, const Path<F>& path,
+template <Features S, class F> F surface_emission_mis_weight(const SceneTables& scene, const MisSettings& mis, const Path<F>& path,
                                                              const Int<F>& found, const F& t, const F& facing, const Mask<F>& active) {
-    if (strategy == Strategy::bsdf) return F(1.f);
+    if (mis.strategy == Strategy::bsdf) return F(1.f);
     // Where only the ray can find the emission, the weight is 1 whatever the pdf of NEE, which costs much.
     const Mask<F> sampled = active && as_mask(found >= 0) && !(path.pdf == F(infinity));
     const Int<F> light = select(sampled, found, Int<F>(0));
@@ -153,7 +147,7 @@ template <Features S, class F> F surface_emission_mis_weight(const SceneTables& 
     const F per_area =
         nee_probability<S, F>(scene, from, light, sampled) * gather_field(scene.lights.lights, &LightRecord::inverse_area, light);
     const F pdf = select(sampled, area_to_solid_angle(per_area, F(t * t), facing), F(0.f));
-    return emission_mis_weight(strategy, path.pdf, pdf);
+    return emission_mis_weight<F>(mis, path.pdf, pdf);
 }
 
 // Radiance of an emissive triangle hit by the path's ray, and its MIS
@@ -167,11 +161,11 @@ template <class F> struct EmissionPlace {
     Int<F> part;
     Vec<F> position, normal;
 };
-template <Features S, class F> EmissionHit<F> emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
+template <Features S, class F> EmissionHit<F> emission_hit(const SceneTables& scene, const MisSettings& mis, const Path<F>& path,
                                                            const EmissionPlace<F>& at, const Hit<F>& hit, const F& facing,
                                                            const Vec<F>& emission, const Mask<F>& emitting) {
     const Int<F> light = light_of_triangle<F>(scene, at.part, select(emitting, hit.triangle, Int<F>(0)));
-    const F alone = surface_emission_mis_weight<S, F>(scene, strategy, path, light, hit.t, facing, emitting);
+    const F alone = surface_emission_mis_weight<S, F>(scene, mis, path, light, hit.t, facing, emitting);
     const F unlinked = beside_light_paths<S, F>(scene, alone, path, light, at.position, at.normal, emitting);
     EmissionHit<F> found{emission, if_linked<S, F>(scene, unlinked, light, path, emitting)};
     if constexpr (S.has(Feature::light_profiles))
@@ -185,18 +179,19 @@ template <class F> struct SphereEmissionHit {
     F weight;
     Int<F> object;
 };
-template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, Strategy strategy, const Path<F>& path,
-                                                                        const Int<F>& sphere, const F& t, const Mask<F>& active) {
+template <Features S, class F> SphereEmissionHit<F> sphere_emission_hit(const SceneTables& scene, const MisSettings& mis,
+                                                                        const Path<F>& path, const Int<F>& sphere, const F& t,
+                                                                        const Mask<F>& active) {
     const LightRecord* lights = scene.lights.lights;
     const Int<F> light = select(active, Int<F>(sphere + scene.lights.first_sphere), Int<F>(0));
     const Vec<F> to_center = gather_field3<F>(lights, &LightRecord::position, light) - path.ray.origin;
     const F height = sphere_cone_height(dot(to_center, to_center), gather_field(lights, &LightRecord::radius, light));
     const Mask<F> outside = active && height > F(0.f);
     F found = F(1.f);
-    if (strategy != Strategy::bsdf) { // Strategy::bsdf has no NEE and no table
+    if (mis.strategy != Strategy::bsdf) { // Strategy::bsdf has no NEE and no table
         const Receiver<F> from{path.ray.origin, path.normal};
         const F pdf = cone_pdf(select(outside, height, F(1.f))) * nee_probability<S, F>(scene, from, light, outside);
-        found = emission_mis_weight(strategy, path.pdf, pdf);
+        found = emission_mis_weight<F>(mis, path.pdf, pdf);
     }
     const Vec<F> position = path.ray.origin + path.ray.direction * t, normal = normalize(position - (path.ray.origin + to_center));
     found = beside_light_paths<S, F>(scene, found, path, light, position, normal, outside);

@@ -61,7 +61,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     Step<F> out = ended_step<F>(path.beta);
     const Mask<F> met = active && as_mask(hit.geometry >= 0);
     hit_background<S, F>(scene, settings, path, bounce, active && !met, out);
-    const HitLanes<F> lanes = hit_sphere_light<S, F>(scene, settings.strategy, path, hit, met, out);
+    const HitLanes<F> lanes = hit_sphere_light<S, F>(scene, settings.mis, path, hit, met, out);
 
     // The surface and its material.
     F cone = F(0.f);
@@ -73,7 +73,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
 
     Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, lanes.surface);
     out.weights.arriving = beta;
-    hit_emitter<S, F>(scene, settings.strategy, path, hit, surface, material, side, beta, lanes.surface, out);
+    hit_emitter<S, F>(scene, settings.mis, path, hit, surface, material, side, beta, lanes.surface, out);
     const Mask<F> scatters = hit_unlit<S, F>(material, beta, lanes.surface, out);
     const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
     const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
@@ -88,7 +88,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const uint32_t dimension = first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce);
     const ScatterSetup<F> setup = scatter_setup<S, F>(scene, material, p);
     if (scene.lights.count > 0 || scene.lights.portals.rows)
-        sample_direct<S, F>(scene, settings.strategy, p, setup, sampler.pair(dimension + light_dimension), light_timer, out);
+        sample_direct<S, F>(scene, settings.mis, p, setup, sampler.pair(dimension + light_dimension), light_timer, out);
     const bool beside = connects_light_paths<S>(scene);
     const F light_ratio = beside ? ratio_at_vertex<F>(scene, settings, path, p, side.wo, hit.t, bounce) : F(0.f);
     if (beside) weigh_direct<S, F>(scene, settings, p, material, side.wo, light_ratio, bounce, out);

@@ -18,10 +18,17 @@ constexpr int max_path_length = 100000;
 // Russian roulette skips delta lobes before this bounce, whatever its rule: they lose almost no energy there.
 constexpr int first_rr_bounce_at_delta = 17;
 
+// How NEE and BSDF sampling are combined.
+struct MisSettings {
+    Strategy strategy = Strategy::mis;
+    bool default_heuristic = true; // heuristic == MisHeuristic{}
+    MisHeuristic heuristic;
+};
+
 struct EstimatorSettings {
     int32_t max_bounces = max_path_length; // scattering events
     Roulette roulette;
-    Strategy strategy = Strategy::mis;
+    MisSettings mis;
     SamplerType sampler = SamplerType::sobol;
     const FilterTable* filter = nullptr;
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation

@@ -33,13 +33,14 @@ template <Features S, class F> [[gnu::always_inline]] inline void hit_background
 }
 
 // Sphere lights in the lanes of `met`: adds beta L_e with its MIS weight. They reflect nothing: the path ends.
-template <Features S, class F> [[gnu::always_inline]] inline HitLanes<F>
-hit_sphere_light(const SceneTables& scene, Strategy strategy, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met, Step<F>& out) {
+template <Features S, class F> [[gnu::always_inline]] inline HitLanes<F> hit_sphere_light(const SceneTables& scene, const MisSettings& mis,
+                                                                                          const Path<F>& path, const Hit<F>& hit,
+                                                                                          const Mask<F>& met, Step<F>& out) {
     HitLanes<F> lanes{met, met, Mask<F>(false), Int<F>(0)};
     if constexpr (S.has(Feature::sphere_lights)) {
         lanes.sphere = met && as_mask(hit.instance == sphere_instance);
         if (any(lanes.sphere)) {
-            const SphereEmissionHit<F> sphere = sphere_emission_hit<S, F>(scene, strategy, path, hit.triangle, hit.t, lanes.sphere);
+            const SphereEmissionHit<F> sphere = sphere_emission_hit<S, F>(scene, mis, path, hit.triangle, hit.t, lanes.sphere);
             out.emitted = select<F>(lanes.sphere, path.beta * sphere.radiance, out.emitted);
             out.weights.emission = select(lanes.sphere, sphere.weight, out.weights.emission);
             out.emits = out.emits || lanes.sphere;
@@ -95,7 +96,7 @@ template <Features S, class F> [[gnu::always_inline]] inline Vec<F> attenuate(co
 }
 
 // Emissive triangles: adds beta L_e w_bsdf, the emission with its MIS weight against NEE (Veach 1997, 9.2; emission_hit.h).
-template <Features S, class F> [[gnu::always_inline]] inline void hit_emitter(const SceneTables& scene, Strategy strategy,
+template <Features S, class F> [[gnu::always_inline]] inline void hit_emitter(const SceneTables& scene, const MisSettings& mis,
                                                                               const Path<F>& path, const Hit<F>& hit, const Surface<F>& at,
                                                                               const MaterialPoint<F>& material, const HitSide<F>& side,
                                                                               const Vec<F>& beta, const Mask<F>& surface, Step<F>& out) {
@@ -106,7 +107,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void hit_emitter(co
             Vec<F> emission = material.emission;
             if constexpr (S.has(Feature::clearcoat)) emission = emission * through_clearcoat(material.bsdf.layers.clearcoat, facing);
             const EmissionHit<F> light =
-                emission_hit<S, F>(scene, strategy, path, {at.part, at.position, at.ng}, hit, facing, emission, emitting);
+                emission_hit<S, F>(scene, mis, path, {at.part, at.position, at.ng}, hit, facing, emission, emitting);
             out.emitted = select<F>(emitting, beta * light.radiance * light.weight, out.emitted);
             out.weights.emission = select(emitting, light.weight, out.weights.emission);
             out.emits = out.emits || emitting;

@@ -46,7 +46,7 @@ Step<float> sample_light_at_meter(const KernelContext& context, const MeterPoint
         step.shadow_mask = shadow_mask<float>(scene.links, light.light);
     }
     const bool lit = !scene.links.lit_sets || !light.valid || is_lit<float>(scene.links, light.light, part, true);
-    const float weight = nee_mis_weight<float>(context.settings.strategy, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
+    const float weight = nee_mis_weight<float>(context.settings.mis, in.pdf, cosine_hemisphere_pdf<float>(cosine), only_sampled);
     step.direct = in.radiance * (cosine * inv_pi * weight / in.pdf);
     step.light = light.light;
     step.connects = light.valid && lit && cosine > 0 && has_light<float>(step.direct);

@@ -17,7 +17,7 @@ EstimatorSettings kernel_settings(const RenderSettings& settings, int width, int
     EstimatorSettings e;
     if (settings.max_bounces != unlimited_bounces) e.max_bounces = settings.max_bounces;
     e.roulette = settings.roulette;
-    e.strategy = settings.strategy;
+    e.mis = {settings.strategy, settings.heuristic == MisHeuristic{}, settings.heuristic};
     e.sampler = settings.sampler;
     e.filter = settings.filter == PixelFilter::box ? &box_filter() : &blackman_harris_filter();
     e.energy = settings.energy_compensation ? &energy_table() : nullptr;

@@ -3,17 +3,11 @@
 
 #include "render/integrator/hit_stages.h"
 #include "render/integrator/light_path_weights.h"
+#include "render/integrator/mis_weights.h"
 #include "render/kernels/stage_timer.h"
 #include "shading/path_guiding.h"
 
 namespace blush::inline BLUSH_ISA {
-
-// MIS weight of NEE; delta lights cannot be hit, so their weight is always 1.
-template <class F> F nee_mis_weight(Strategy strategy, const F& light_pdf, const F& bsdf_pdf, const Mask<F>& delta) {
-    if (strategy == Strategy::bsdf) return select(delta, F(1.f), F(0.f));
-    if (strategy == Strategy::light) return F(1.f);
-    return select(delta, F(1.f), power_heuristic(light_pdf, bsdf_pdf));
-}
 
 // True if not black; NaN counts as light, so that it reaches the film and is reported.
 template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
@@ -62,7 +56,7 @@ scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const 
 // Next event estimation with a point of one light: beta f |cos| L_e w_light / p_light, and the shadow ray that has to arrive
 // (Veach 1997, 9.2). Not where all lobes are delta lobes. `random`: pair of light_dimension. `timer`: of the sampling of the light, may be
 // null.
-template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(const SceneTables& scene, Strategy strategy,
+template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(const SceneTables& scene, const MisSettings& mis,
                                                                                 const ShadingPoint<F>& p, const ScatterSetup<F>& setup,
                                                                                 const Pair<F>& random, SampledTimer* timer, Step<F>& out) {
     const Mask<F> wants_light = p.scatters && !is_delta_only<F>(p.bsdf);
@@ -90,7 +84,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void sample_direct(
         }
     }
     const F bsdf_pdf = setup.guides ? guided_pdf<F>(scene.guides, setup.guide, wi_world, f.pdf) : f.pdf;
-    const F weight = nee_mis_weight(strategy, in.pdf, bsdf_pdf, only_sampled);
+    const F weight = nee_mis_weight<F>(mis, in.pdf, bsdf_pdf, only_sampled);
     out.direct = p.beta * f.f_cos * in.radiance * (weight / in.pdf);
     if constexpr (S.has(Feature::transmission))
         if (scene.panes) out.direct = out.direct * (1.f / max(setup.scatter_share, F(0x1p-24f)));

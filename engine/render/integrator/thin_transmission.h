@@ -101,7 +101,7 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
     if (any(emits)) {
         // Scenes with panes have no light paths.
         const EmissionPlace<F> at{p.part, path.ray.origin, path.normal};
-        const EmissionHit<F> found = emission_hit<S, F>(scene, context.settings.strategy, path, at, hit, p.facing, p.emission, emits);
+        const EmissionHit<F> found = emission_hit<S, F>(scene, context.settings.mis, path, at, hit, p.facing, p.emission, emits);
         const Vec<F> light = path.beta * found.radiance * found.weight;
         for_each_lane(bits(emits), [&](int i) {
             const int slot = lane(path.slot, i);

@@ -119,7 +119,7 @@ std::shared_ptr<const CausticPhotons> trace_caustic_photons(KernelContext contex
     const PhotonSource source = photon_source(emission);
     context = pilot_context(context);
     context.scene = &tables;
-    context.settings.strategy = Strategy::bsdf;
+    context.settings.mis.strategy = Strategy::bsdf;
     context.seed = photon_seed;
     const auto pixels = int64_t(double(context.settings.width) * double(context.settings.height));
     const int64_t tiles = std::clamp(pixels / pixels_per_photon_tile, min_photon_tiles, max_photon_tiles);

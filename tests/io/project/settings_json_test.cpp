@@ -19,6 +19,7 @@ RenderSettings unusual_settings() {
     s.max_bounces = 2;
     s.roulette = {Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f};
     s.strategy = Strategy::bsdf;
+    s.heuristic = {MisHeuristic::Rule::cutoff, 2, 0.25f};
     s.caustics = CausticStrategy::light_paths;
     s.filter = PixelFilter::box;
     s.sampler = SamplerType::random;
@@ -84,6 +85,7 @@ TEST(SettingsJson, WrongInputIsAnErrorThatNamesTheKey) {
                                                           {R"({"max_bounces": "few"})", "max_bounces"},
                                                           {R"({"roulette": "russian"})", "roulette"},
                                                           {R"({"strategy": 3})", "strategy"},
+                                                          {R"({"heuristic": "power=9"})", "heuristic"},
                                                           {R"({"sampler": "halton"})", "sampler"},
                                                           {R"({"energy_compensation": "yes"})", "energy_compensation"},
                                                           {R"({"reuse": "5"})", "reuse"},

@@ -25,8 +25,10 @@ struct Compiled {
     Workers workers{1};
     RenderScene scene;
 
-    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1, SamplerType sampler = SamplerType::sobol) {
+    explicit Compiled(const Scene& s, bool compensate = false, int reuse = 1, SamplerType sampler = SamplerType::sobol,
+                      const MisHeuristic& heuristic = {}) {
         settings.reuse = reuse;
+        settings.heuristic = heuristic;
         settings.sampler = sampler;
         settings.energy_compensation = compensate;
         scene.update(expand_area_lights(s), settings, full_plan(), workers);
@@ -87,6 +89,13 @@ TEST(Kernels, GiveTheSameBitsOnCaustics) {
 
 TEST(Kernels, GiveTheSameBitsFromIndependentNumbers) {
     expect_same_bits_from_all_kernels(Compiled(shipped_scene("card-and-mug"), false, 1, SamplerType::random));
+}
+
+TEST(Kernels, GiveTheSameBitsWithEachHeuristic) {
+    for (const char* heuristic : {"balance", "power=8", "cutoff=0.3", "maximum"}) {
+        SCOPED_TRACE(heuristic);
+        expect_same_bits_from_all_kernels(Compiled(shipped_scene("veach-mis"), false, 1, SamplerType::sobol, *parse_heuristic(heuristic)));
+    }
 }
 
 TEST(Kernels, GiveTheSameBitsWhenPathsAreShared) {

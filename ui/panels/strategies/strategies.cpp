@@ -1,5 +1,6 @@
 // Strategies panel: BSDF sampling, light sampling and MIS side by side, with their errors over time and what each contributes to MIS.
 #include "ui/panels/panels.h"
+#include "ui/panels/strategies/heuristic_fields.h"
 #include "ui/views/strategies_view.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
@@ -37,13 +38,28 @@ void draw_choices(PanelContext& c, StrategiesView& view) {
     view.metric = ErrorMetric(segments(c.ui, "Strategies/Error", metrics, int(view.metric),
                                        "RMSE: root mean squared error, in nits. relMSE: mean of the squared error divided by the squared "
                                        "value. MIS: estimated from its half buffers. The others: measured against the image of MIS."));
-    const char* const name = "Compensate MIS";
-    same_line_if_fits(ImGui::GetFrameHeightWithSpacing() + ImGui::CalcTextSize(name).x, gap);
+}
+
+// Settings of the image: its renders follow them, and the Render tab has them, too.
+void draw_mis_settings(PanelContext& c) {
+    const float em = ImGui::GetFontSize();
     RenderSettings r = c.project().render;
+    choose_heuristic(r.heuristic, segments(c.ui, "Strategies/Heuristic", heuristic_names, int(r.heuristic.rule), heuristic_tip));
+    if (r.heuristic != c.project().render.heuristic) c.apply(SetRender{r});
+    const ImVec2 number{14 * em, ImGui::GetFrameHeight()};
+    same_line_if_fits(number.x, em);
+    ImGui::BeginChild("number", number, false, ImGuiWindowFlags_NoScrollbar);
+    {
+        Fields f(c.ui, "Strategies");
+        draw_heuristic_number(f, r.heuristic);
+        if (f.changed()) c.apply(SetRender{r}, f.gesture());
+    }
+    ImGui::EndChild();
+    const char* const name = "Compensate MIS";
+    same_line_if_fits(ImGui::GetFrameHeightWithSpacing() + ImGui::CalcTextSize(name).x, em);
     if (ImGui::Checkbox(name, &r.mis_compensation)) c.apply(SetRender{r});
     c.ui.probe.record_last_item(fmt::format("Strategies/{}", name));
-    tip_for_last_item(c.ui, "A setting of the image, as in the Render tab. The weights of MIS are those of the power heuristic with "
-                            "exponent 2; with compensation, light sampling leaves the even part of an environment to BSDF sampling.");
+    tip_for_last_item(c.ui, "Light sampling leaves the even part of an environment to BSDF sampling (Karlik et al. 2019).");
 }
 
 void text_line(PanelContext& c, const std::string& text, ImU32 color, float width, const std::string& record = {}) {
@@ -156,6 +172,7 @@ void draw_chart(PanelContext& c, const StrategyReport* report, float height) {
 void draw_strategy_report(PanelContext& c, const StrategyReport* report) {
     const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x;
     draw_choices(c, c.ui.strategies);
+    draw_mis_settings(c);
     const Texts texts = texts_of(report, c.ui.strategies.show);
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (room.x < 2 * room.y || room.x < 40 * em) {

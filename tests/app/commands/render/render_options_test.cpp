@@ -58,6 +58,8 @@ std::vector<std::string> every_option() {
             "manifold",
             "--energy-compensation",
             "on",
+            "--heuristic",
+            "cutoff=0.25",
             "--mis-compensation",
             "off",
             "--adaptive",
@@ -105,6 +107,7 @@ TEST(RenderOptions, EachOptionSetsItsField) {
     expected.max_bounces = 2;
     expected.roulette = {Roulette::Rule::constant, 1, 0, 1, 0.5f, 0.1f};
     expected.strategy = Strategy::light;
+    expected.heuristic = {MisHeuristic::Rule::cutoff, 2, 0.25f};
     expected.caustics = CausticStrategy::manifold;
     expected.energy_compensation = true;
     expected.mis_compensation = false;
@@ -196,6 +199,7 @@ TEST(RenderOptions, BadTextIsRefused) {
                                                       {"--max-bounces", "few"},
                                                       {"--strategy", "both"},
                                                       {"--caustics", "on"},
+                                                      {"--heuristic", "power=0"},
                                                       {"--sampler", "halton"},
                                                       {"--energy-compensation", "maybe"},
                                                       {"--mis-compensation", "maybe"},
