@@ -133,7 +133,7 @@ void EditorLesson::go_to(PanelContext& c, size_t step, const Project& user) {
     state.render.width = user.render.width;
     state.render.height = user.render.height;
     if (!s.settings.contains("spp")) state.render.spp = window_samples;
-    if (!s.settings.contains("exposure") && !s.settings.contains("auto-exposure")) state.view.auto_exposure = AutoExposure::average;
+    state.view = view_in_window(s, state.view);
     c.ui.lesson.step = step;
     c.ui.lesson.answer = false;
     forget_places(c.ui);
