@@ -51,7 +51,8 @@ TEST(Shortcuts, AreFormatted) {
     EXPECT_EQ(to_string({key::remove, false, false, false}), "Del");
     EXPECT_EQ(to_string(KeyPress{}), "");
     EXPECT_EQ(keys_of(shortcut(Command::snapshot_exr)), "F12 or Ctrl+Enter");
-    EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "F11");
+    EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "Shift+F11");
+    EXPECT_EQ(keys_of(shortcut(Command::presentation)), "F11");
 }
 
 // As Fields does for a widget that is grabbed, dragged and released.
