@@ -25,6 +25,9 @@ struct Instrument {
 // Null if none of them has this id.
 const Instrument* find_instrument(std::span<const Instrument> instruments, const std::string& id);
 
+// Without those that the presentation hides.
+std::vector<Instrument> instruments_in_sight(std::span<const Instrument> instruments, const PanelContext& c);
+
 // Ids of the open ones, in the order of the list.
 std::vector<std::string> open_instruments(std::span<const Instrument> instruments, const PanelContext& c);
 

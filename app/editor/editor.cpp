@@ -9,10 +9,12 @@
 #include "app/editor/editor_lesson.h"
 #include "app/editor/editor_messages.h"
 #include "app/editor/editor_panels.h"
+#include "app/editor/editor_presentation.h"
 #include "app/editor/editor_snapshots.h"
 #include "app/editor/guide.h"
 #include "app/editor/live_mix.h"
 #include "app/editor/one_shot_metering.h"
+#include "app/editor/write_at_end.h"
 #include "app/files/desktop_file_dialog.h"
 #include "app/files/editor_files.h"
 #include "app/files/editor_saving.h"
@@ -41,15 +43,6 @@ namespace {
 using Clock = FrameStats::Clock;
 
 constexpr double max_sleep = 1; // seconds: interval of checks whether the scene file has changed
-
-// Writes the settings on exit. A failure is a warning, because the window is already closed.
-void write_at_end(const WindowSettings& settings, const FrameStats& stats, const std::filesystem::path& stats_file) {
-    const auto warn = [](const Result<void>& written) {
-        if (!written) fmt::print(stderr, "blush: warning: {}\n", written.error().text());
-    };
-    if (const auto file = window_settings_file(); !file.empty()) warn(write_window_settings(file, settings));
-    if (!stats_file.empty()) warn(stats.write(stats_file));
-}
 
 class Editor {
 public:
@@ -107,6 +100,7 @@ private:
     EditorMessages messages_;
     StartPage opening_page_{options_.assets, &Window::wake};
     EditorLesson lesson_{options_.assets, &Window::wake};
+    EditorPresentation presentation_;
     std::string weights_problem_; // why the denoiser's weights cannot be used; empty: they can
     RenderSession session_;
     SubmissionPtr submitted_; // null: the open scene is not submitted yet
@@ -171,6 +165,7 @@ void Editor::run() {
         submit();
         draw();
     }
+    presentation_.end(context(), *window_);
     if (!lesson_.end(context()) && !shows_preview())
         opening_page_.save_thumbnail(files_.scene_file(), images_.frame, document_.project().view, color_, true);
     saving_.end();
@@ -212,6 +207,7 @@ void Editor::poll() {
             ui_.transform.keys.push_back(press);
             continue;
         }
+        if (!taken && !menu && EditorPresentation::takes(press, ui_)) continue;
         const Shortcut* s = find_shortcut(press);
         if (!s || taken || flying || (menu && s->command != Command::clear_selection)) continue;
         if (files_.preview() || ui_.tool != ViewTool::none || !ui_.transform.begin(s->command)) ui_.commands.push_back(s->command);
@@ -249,7 +245,7 @@ void Editor::panels() {
     display_.update_shader(view, images_.frame, viewport_, thumbnails_, ui_.toasts);
     display_.update_feature_report(session_.status());
     display_.meter(view.auto_exposure, images_.frame);
-    window_->set_text_size(ui_.settings.text_size);
+    window_->set_text_size(text_size_shown(ui_));
     window_->begin_frame();
     ui_.seconds_to_next_frame = 1e9;
     ui_.probe.begin_frame();
@@ -304,6 +300,7 @@ void Editor::draw_on_top(PanelContext& c) {
     if (job) ui_.seconds_to_next_frame = std::min(ui_.seconds_to_next_frame, 0.1);
     if (draw_cards(c, layout_.viewport, job) && opening) files_.cancel();
     draw_modal_dialog(c);
+    draw_marks(ui_);
 }
 
 // Executes requests of panels, menus and keys.
@@ -316,6 +313,7 @@ void Editor::handle_requests(PanelContext& c) {
         else if (!run_command(command, c) && !lesson_.refuses(command, ui_))
             run_own_command(command);
     }
+    presentation_.poll(c, *window_);
     desktop_file_dialog_.poll(ui_);
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     if (std::exchange(ui_.meter_exposure, false) && !lesson_.document()) metering_.want(document_.project(), false);

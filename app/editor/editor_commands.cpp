@@ -181,7 +181,7 @@ void toggle_denoise(PanelContext& c) {
     c.ui.toasts.warn("The image cannot be denoised", c.denoiser_problem);
 }
 
-// Closes or cancels the topmost item: a menu, the shortcut sheet, a tool, placing, the light camera, the selection.
+// Closes or cancels the topmost item: a menu, the shortcut sheet, a tool, the presentation, placing, the light camera, the selection.
 void escape(PanelContext& c) {
     if (close_top_popup()) return;
     for (bool* open : {&c.ui.show_shortcuts, &c.ui.opening_page})
@@ -189,6 +189,10 @@ void escape(PanelContext& c) {
     if (c.ui.tool != ViewTool::none) {
         c.ui.tool = ViewTool::none;
         return c.ui.tool_start.reset();
+    }
+    if (c.ui.presentation.on) {
+        c.ui.presentation.wanted = false;
+        return;
     }
     if (c.ui.placing_by != PlacingBy::hand) {
         c.ui.placing_by = PlacingBy::hand;
@@ -266,6 +270,7 @@ constexpr CommandAction command_actions[] = {
     {Command::toggle_projection, toggle_projection},
     {Command::toggle_overlays, [](PanelContext& c) { c.ui.settings.overlays = !c.ui.settings.overlays; }},
     {Command::toggle_panels, [](PanelContext& c) { c.ui.panels_hidden = !c.ui.panels_hidden; }},
+    {Command::presentation, [](PanelContext& c) { c.ui.presentation.wanted = !c.ui.presentation.wanted; }},
     {Command::toggle_zoom, [](PanelContext& c) { c.ui.zoom = toggled(c.ui.zoom); }},
     {Command::exposure_up, [](PanelContext& c) { change_exposure(c, c.project().view.exposure_ev + 0.5f); }},
     {Command::exposure_down, [](PanelContext& c) { change_exposure(c, c.project().view.exposure_ev - 0.5f); }},

@@ -61,6 +61,7 @@ std::vector<LessonView::File> EditorLesson::shipped() const {
 EditorLesson::Kept EditorLesson::kept(const PanelContext& c) {
     const UiState& ui = c.ui;
     return {open_instruments(instruments(), c),
+            ui.settings.dock.front,
             ui.tool,
             ui.selected,
             ui.also_selected,
@@ -122,7 +123,7 @@ void EditorLesson::begin(PanelContext& c, Loaded loaded) {
     view.title = loaded_.lesson.title;
     view.step = 0;
     view.steps.clear();
-    for (const LessonStep& s : loaded_.lesson.steps) view.steps.push_back({s.title, s.text, s.question, s.expect});
+    for (const LessonStep& s : loaded_.lesson.steps) view.steps.push_back({s.title, s.text, s.question, s.expect, s.highlight});
     c.ui.snapshots.open = c.ui.opening_page = false;
     c.ui.docks.to_front.insert("lesson");
 }
@@ -133,8 +134,9 @@ void EditorLesson::go_to(PanelContext& c, size_t step, const Project& user) {
     state.render.width = user.render.width;
     state.render.height = user.render.height;
     if (!s.settings.contains("spp")) state.render.spp = window_samples;
-    if (!s.settings.contains("exposure") && !s.settings.contains("auto-exposure")) state.view.auto_exposure = AutoExposure::average;
+    state.view = view_in_window(s, state.view);
     c.ui.lesson.step = step;
+    c.ui.probe.watch(s.highlight);
     c.ui.lesson.answer = false;
     forget_places(c.ui);
     c.ui.home = home_at_opening(state.scene);
@@ -151,6 +153,9 @@ bool EditorLesson::end(PanelContext c) {
     UiState& ui = c.ui;
     forget_places(ui);
     open_panels(c, kept_->panels, lesson_panels);
+    // Those that come back do not come to the front of their dock; those that were there do.
+    ui.docks.open = open_instruments(instruments(), c);
+    ui.docks.to_front = std::set<std::string>(kept_->front.begin(), kept_->front.end());
     ui.tool = kept_->tool;
     ui.selected = kept_->selected;
     ui.also_selected = kept_->also_selected;
@@ -166,6 +171,7 @@ bool EditorLesson::end(PanelContext c) {
     ui.opening_page = kept_->opening_page;
     kept_.reset();
     ui.lesson.steps.clear();
+    ui.probe.watch("");
     loaded_ = {};
     document_.reset();
     return true;

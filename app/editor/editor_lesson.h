@@ -6,6 +6,7 @@
 #include "ui/jobs/background_job.h"
 #include "ui/panel_context.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,6 +38,7 @@ private:
     // What of the window the lesson changes.
     struct Kept {
         std::vector<std::string> panels;
+        std::array<std::string, 2> front; // tabs of the docks
         ViewTool tool = ViewTool::none;
         Id<Node> selected;
         std::vector<Id<Node>> also_selected;

@@ -106,6 +106,7 @@ void toggle_instrument(PanelContext& c, const std::string& id) {
     const Instrument* i = find_instrument(table, id);
     if (!i) return;
     if (!i->is_open(c)) return i->set_open(c, true);
+    if (c.ui.presentation.hidden.erase(id) > 0) return; // it was open, out of sight
     if (c.ui.docks.in_sight.contains(id) || c.ui.panels_hidden) return i->set_open(c, false);
     c.ui.docks.to_front.insert(id);
 }

@@ -225,6 +225,7 @@ void draw_menu_bar(PanelContext& c) {
     if (begin_menu(c, "Window")) {
         item(c, Command::toggle_panels, true, nullptr, c.ui.panels_hidden);
         item(c, Command::full_screen);
+        item(c, Command::presentation, true, nullptr, c.ui.presentation.on);
         item(c, Command::snapshot_strip, true, nullptr, c.ui.snapshots.open);
         item(c, Command::dock_all, std::ranges::any_of(c.ui.settings.dock.tabs, &DockTab::floats));
         ImGui::Separator();

@@ -17,6 +17,7 @@ struct LessonView {
     struct Step {
         std::string title, text;      // the text is Markdown
         std::string question, expect; // empty: none
+        std::string highlight;        // widget with a frame around it, by its name in the probe; empty: none
     };
     struct File {
         std::string title;

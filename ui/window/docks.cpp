@@ -93,7 +93,8 @@ void draw_dock(PanelContext& c, std::span<const Instrument> instruments, DockSid
     const ImVec2 corner{region.x + region.width - guide_mark_width(), ImGui::GetCursorScreenPos().y};
     float& tabs_end = ImGui::GetCurrentWindow()->WorkRect.Max.x;
     const float end = std::exchange(tabs_end, corner.x); // the tabs end before the mark, the content does not
-    const bool begun = ImGui::BeginTabBar("tabs", flags);
+    // A presentation has tabs of its own, so that those before it keep their order.
+    const bool begun = ImGui::BeginTabBar(c.ui.presentation.on ? "presented tabs" : "tabs", flags);
     tabs_end = end;
     if (begun) {
         std::vector<std::pair<float, std::string>> places;

@@ -23,12 +23,13 @@ ProbeState with_mouse_and_keyboard(ProbeState state) {
 } // namespace
 
 void Probe::record_last_item(const std::string& name) {
-    if (!enabled() || !ImGui::IsItemVisible()) return;
+    if ((!enabled() && name != watched_) || !ImGui::IsItemVisible()) return;
     const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
     record(name, {low.x, low.y, size.x, size.y});
 }
 
 void Probe::record(const std::string& name, const Region& region) {
+    if (!watched_.empty() && name == watched_) watched_region_ = region;
     if (enabled()) items_.push_back({name, region});
 }
 

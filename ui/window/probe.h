@@ -1,10 +1,12 @@
-// Writes the positions of named widgets to a file, for UI tests: a test that drags "Light/Intensity" finds its rectangle here.
+// Positions of named widgets: written to a file for UI tests, which find the rectangle of "Light/Intensity" there; and that of the one
+// widget that a lesson highlights.
 #pragma once
 
 #include "ui/window/layout.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +38,14 @@ public:
     explicit Probe(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
     bool enabled() const { return !file_.empty(); }
-    void begin_frame() { items_.clear(); }
+    void begin_frame() {
+        items_.clear();
+        watched_region_.reset();
+    }
+    // The widget of this name is found even if nothing is recorded; empty: none.
+    void watch(const std::string& name) { watched_ = name; }
+    // Where the watched widget is in this frame; empty if it is not shown.
+    const std::optional<Region>& watched_region() const { return watched_region_; }
     // Records the last ImGui item.
     void record_last_item(const std::string& name);
     // Records a draggable region that is not an ImGui item.
@@ -51,6 +60,8 @@ private:
         bool operator==(const Item&) const = default;
     };
     std::filesystem::path file_;
+    std::string watched_;
+    std::optional<Region> watched_region_;
     std::vector<Item> items_, written_items_;
     ProbeState written_state_;
 };

@@ -79,6 +79,7 @@ enum class Command {
     toggle_overlays,
     toggle_panels,
     full_screen,
+    presentation,
     toggle_zoom,
     exposure_up,
     exposure_down,

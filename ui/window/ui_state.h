@@ -21,6 +21,7 @@
 #include "ui/views/map_view.h"
 #include "ui/views/meters_view.h"
 #include "ui/views/paths_view.h"
+#include "ui/views/presentation_view.h"
 #include "ui/views/roulette_view.h"
 #include "ui/views/scopes_view.h"
 #include "ui/views/strategies_view.h"
@@ -170,6 +171,7 @@ struct UiState {
     bool show_history = false;
     MenuBarView menu_bar;
     LessonView lesson;
+    PresentationView presentation;
     LightMixView light_mix;
     BleedView bleed;
     BouncesView bounces;

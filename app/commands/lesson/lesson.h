@@ -1,4 +1,4 @@
-// `blush lesson check FILE`: is the lesson valid, and are its claims true?
+// `blush lesson check FILE`: is the lesson valid, and are its claims true? `blush lesson export FILE`: its handout.
 #pragma once
 
 #include <functional>

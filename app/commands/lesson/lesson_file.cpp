@@ -40,6 +40,13 @@ bool take(std::string_view& text, std::string_view word) {
     return true;
 }
 
+// "Lesson/Next", "Roulette/Rule/max": parts with a name each. Only the window knows which widgets there are.
+bool is_widget(std::string_view name) {
+    if (name.size() > max_highlight || std::ranges::any_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f; })) return false;
+    const std::vector<std::string_view> parts = split(name, '/');
+    return parts.size() >= 2 && std::ranges::none_of(parts, [](std::string_view p) { return p.empty() || trimmed(p) != p; });
+}
+
 std::optional<std::array<int, 4>> parse_rect(std::string_view text) {
     const std::vector<std::string_view> parts = split(text, ',');
     std::array<int, 4> rect{};
@@ -192,8 +199,14 @@ private:
             step.tool = value;
             return {};
         }
+        if (key == "highlight") {
+            if (!is_widget(value)) return wrong("highlight must be highlight: PANEL/WIDGET, such as Lesson/Next");
+            step.highlight = value;
+            return {};
+        }
         if (key == "claim") return claim(step, value);
-        return wrong(fmt::format("unknown key \"{}\": step, scene, camera, set, reset, open, tool, question, expect or claim", key));
+        return wrong(
+            fmt::format("unknown key \"{}\": step, scene, camera, set, reset, open, tool, highlight, question, expect or claim", key));
     }
 
     Result<void> setting(LessonStep& step, const std::string& text) {

@@ -41,6 +41,7 @@ struct LessonStep {
     std::map<std::string, std::string> settings; // of `blush render`, "max-bounces": "2"
     std::vector<std::string> panels;             // instruments to open, others close
     std::string tool;                            // empty: none
+    std::string highlight;                       // name of a widget, as UI tests know it: "Lesson/Next"; empty: none
     std::vector<LessonClaim> claims;
     std::map<std::string, size_t> lines; // of the keys "scene", "camera", and of settings
 };
@@ -52,7 +53,7 @@ struct Lesson {
 };
 
 constexpr uint64_t max_lesson_bytes = uint64_t(1) << 20;
-constexpr size_t max_lesson_steps = 200, max_step_claims = 20;
+constexpr size_t max_lesson_steps = 200, max_step_claims = 20, max_highlight = 100;
 // The panels and tools that a step may open, by their names in window.json.
 constexpr std::array<const char*, 11> lesson_panels{"bleed",  "bounces", "convergence", "health", "light_mix", "light_table",
                                                     "meters", "paths",   "roulette",    "scopes", "strategies"};

@@ -26,6 +26,11 @@ Result<void> check_places(const Lesson& lesson, const LessonStep& step, const Re
 
 } // namespace
 
+ViewSettings view_in_window(const LessonStep& step, ViewSettings view) {
+    if (!step.settings.contains("exposure") && !step.settings.contains("auto-exposure")) view.auto_exposure = AutoExposure::average;
+    return view;
+}
+
 Result<std::vector<Project>> states_of(const Lesson& lesson, Progress& progress, const std::atomic<bool>& interrupted) {
     std::map<std::filesystem::path, ImportedScene> scenes;
     std::vector<Project> states;

@@ -5,6 +5,7 @@
 #include "ui/window/frame_budget.h"
 #include "ui/window/frame_stats.h"
 #include "ui/window/gestures.h"
+#include "ui/window/probe.h"
 #include "ui/window/shortcuts.h"
 #include "ui/window/toasts.h"
 
@@ -17,6 +18,21 @@ namespace blush::TEST_FILE {
 namespace {
 
 using namespace std::chrono_literals;
+
+TEST(Probe, FindsTheWatchedWidgetWithoutAFile) {
+    Probe probe;
+    probe.watch("Lesson/Next");
+    probe.begin_frame();
+    probe.record("Lesson/Back", {1, 2, 3, 4});
+    EXPECT_FALSE(probe.watched_region());
+    probe.record("Lesson/Next", {5, 6, 7, 8});
+    EXPECT_EQ(probe.watched_region(), (Region{5, 6, 7, 8}));
+    probe.begin_frame();
+    EXPECT_FALSE(probe.watched_region()) << "it was not shown in this frame";
+    probe.watch("");
+    probe.record("", {1, 2, 3, 4});
+    EXPECT_FALSE(probe.watched_region());
+}
 
 TEST(Shortcuts, KeysAreUnique) {
     for (const Shortcut& a : shortcuts()) {
@@ -51,7 +67,8 @@ TEST(Shortcuts, AreFormatted) {
     EXPECT_EQ(to_string({key::remove, false, false, false}), "Del");
     EXPECT_EQ(to_string(KeyPress{}), "");
     EXPECT_EQ(keys_of(shortcut(Command::snapshot_exr)), "F12 or Ctrl+Enter");
-    EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "F11");
+    EXPECT_EQ(keys_of(shortcut(Command::full_screen)), "Shift+F11");
+    EXPECT_EQ(keys_of(shortcut(Command::presentation)), "F11");
 }
 
 // As Fields does for a widget that is grabbed, dragged and released.

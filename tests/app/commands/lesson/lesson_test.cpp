@@ -167,6 +167,24 @@ TEST(Lesson, StatesAreThoseOfTheSteps) {
     EXPECT_EQ(camera_name((*states)[2].scene), "from above");
 }
 
+TEST(Lesson, HighlightsAWidgetByItsName) {
+    const auto with = [](const std::string& widget) { return parse_lesson(replaced(good, "tool: bleed", "highlight: " + widget), "a.md"); };
+    for (const char* valid : {"Lesson/Next", "Menu bar/Help", "Roulette/Rule/max"}) {
+        const Result<Lesson> lesson = with(valid);
+        ASSERT_TRUE(lesson) << lesson.error().text();
+        EXPECT_EQ(lesson->steps[0].highlight, valid);
+        EXPECT_EQ(lesson->steps[1].highlight, "") << "a highlight does not carry over";
+    }
+    for (const std::string& wrong :
+         {std::string("Next"), std::string("/Next"), std::string("Lesson/"), std::string("Lesson//Next"), std::string("Lesson /Next"),
+          std::string("Lesson/\x01"), "Lesson/" + std::string(max_highlight, 'x')}) {
+        const Result<Lesson> lesson = with(wrong);
+        ASSERT_FALSE(lesson) << wrong;
+        EXPECT_EQ(lesson.error().file, "a.md:11");
+        EXPECT_NE(lesson.error().what.find("PANEL/WIDGET"), std::string::npos) << lesson.error().text();
+    }
+}
+
 TEST(LessonCommand, ChecksAFile) {
     const TemporaryFolder folder;
     const Finished valid = blush({"lesson", "check", written(folder, good)});
