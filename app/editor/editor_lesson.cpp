@@ -112,13 +112,14 @@ bool EditorLesson::poll(PanelContext c, const Project& user) {
         changed = changed || loaded_.lesson.steps[*step].file != loaded_.lesson.steps[view.step].file;
         go_to(c, *step, user);
     }
-    return changed;
+    return follow_document(c) || changed;
 }
 
 void EditorLesson::begin(PanelContext& c, Loaded loaded) {
     if (!kept_) kept_ = kept(c);
     loaded_ = std::move(loaded);
     document_.emplace();
+    reached_.clear();
     LessonView& view = c.ui.lesson;
     view.title = loaded_.lesson.title;
     view.step = 0;
@@ -135,17 +136,45 @@ void EditorLesson::go_to(PanelContext& c, size_t step, const Project& user) {
     state.render.height = user.render.height;
     if (!s.settings.contains("spp")) state.render.spp = window_samples;
     state.view = view_in_window(s, state.view);
-    c.ui.lesson.step = step;
-    c.ui.probe.watch(s.highlight);
-    c.ui.lesson.answer = false;
-    forget_places(c.ui);
-    c.ui.home = home_at_opening(state.scene);
-    c.ui.frame = {.fit = c.ui.frame.fit};
     const bool first = document_->project().scene.nodes.empty();
     first ? document_->reset(std::move(state)) : document_->replace(std::move(state), fmt::format("Step {}: {}", step + 1, s.title));
+    // A step with the state of the one before makes no undo step: it takes its place.
+    const std::vector<std::string> labels = document_->undo_labels();
+    std::erase_if(reached_, [&](const Reached& r) { return r.undo_steps >= labels.size(); });
+    reached_.push_back({labels.size(), labels.empty() ? "" : labels.back(), step});
+    show(c, step);
+}
+
+void EditorLesson::show(PanelContext& c, size_t step) {
+    const LessonStep& s = loaded_.lesson.steps[step];
+    shown_revision_ = document_->revision();
+    c.ui.lesson.step = step;
+    c.ui.lesson.answer = false;
+    c.ui.probe.watch(s.highlight);
+    forget_places(c.ui);
+    c.ui.home = home_at_opening(document_->project().scene);
+    c.ui.frame = {.fit = c.ui.frame.fit};
     open_panels(c, s.panels, lesson_panels);
     c.ui.tool = tool_of(s.tool);
     frames_to_front_ = 3;
+}
+
+// The step whose state the document has, with later edits.
+size_t EditorLesson::step_of_document(size_t shown) const {
+    const std::vector<std::string> labels = document_->undo_labels();
+    for (auto r = reached_.rbegin(); r != reached_.rend(); ++r)
+        if (r->undo_steps <= labels.size() && (r->undo_steps == 0 || labels[r->undo_steps - 1] == r->label)) return r->step;
+    return shown;
+}
+
+// Undo and redo lead to another step.
+bool EditorLesson::follow_document(PanelContext& c) {
+    if (!document_ || document_->revision() == shown_revision_) return false;
+    shown_revision_ = document_->revision();
+    const size_t before = c.ui.lesson.step, now = step_of_document(before);
+    if (now == before) return false;
+    show(c, now);
+    return loaded_.lesson.steps[now].file != loaded_.lesson.steps[before].file;
 }
 
 bool EditorLesson::end(PanelContext c) {

@@ -53,8 +53,20 @@ private:
         bool strip = false, opening_page = false;
     };
 
+    // A step that the user went to, and the end of the undo history then.
+    struct Reached {
+        size_t undo_steps = 0;
+        std::string label; // of the last undo step
+        size_t step = 0;
+    };
+
     void begin(PanelContext& c, Loaded loaded);
     void go_to(PanelContext& c, size_t step, const Project& user);
+    // The panels and tool of a step whose state the document has.
+    void show(PanelContext& c, size_t step);
+    size_t step_of_document(size_t shown) const;
+    // True if the document has the state of a step with another scene.
+    bool follow_document(PanelContext& c);
     static Kept kept(const PanelContext& c);
 
     std::filesystem::path assets_;
@@ -62,6 +74,8 @@ private:
     Loaded loaded_;
     std::optional<Document> document_;
     std::optional<Kept> kept_;
+    std::vector<Reached> reached_;                       // in the order of undo steps; some may be of a future that edits have replaced
+    uint64_t shown_revision_ = 0;                        // of the document, when the shown step was last compared with it
     int frames_to_front_ = 0;                            // the panels of the step open first; one beside the lesson would hide it
     std::unique_ptr<BackgroundJob<Result<Loaded>>> job_; // last: it uses what is above
 };

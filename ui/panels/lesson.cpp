@@ -52,6 +52,7 @@ void draw_lesson_panel(PanelContext& c) {
     ImGui::SetWindowFontScale(1);
     ImGui::PushStyleColor(ImGuiCol_Text, tone::dim_text);
     wrapped_text(fmt::format("{}, step {} of {}", view.title, view.step + 1, view.steps.size()));
+    c.ui.probe.record_last_item(fmt::format("Lesson/Step {}", view.step + 1));
     ImGui::PopStyleColor();
     ImGui::SetWindowFontScale(title_scale);
     wrapped_text(step.title);
