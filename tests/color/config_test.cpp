@@ -1,9 +1,8 @@
 // OCIO configs: selection, contents, and handling of broken files.
 #include "tests/color/shipped_config.h"
+#include "tests/support/process.h"
 
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -17,16 +16,8 @@ namespace {
 // A folder for one test's configs, removed with it.
 class ConfigFiles : public testing::Test {
 protected:
-    ConfigFiles() {
-        unsetenv("OCIO");
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() / (std::string("blush-ocio-") + test->name() + "-" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    ~ConfigFiles() override {
-        unsetenv("OCIO");
-        std::filesystem::remove_all(folder_);
-    }
+    ConfigFiles() { unsetenv("OCIO"); }
+    ~ConfigFiles() override { unsetenv("OCIO"); }
 
     std::filesystem::path write(const std::string& text) const {
         const auto file = folder_ / "config.ocio";
@@ -34,7 +25,8 @@ protected:
         return file;
     }
 
-    std::filesystem::path folder_;
+    test::TemporaryFolder temporary_;
+    std::filesystem::path folder_ = temporary_.path();
 };
 
 // A third-party config with `extra_role` and `spaces` inserted. Its only view is linear.

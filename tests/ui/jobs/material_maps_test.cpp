@@ -3,29 +3,16 @@
 #include "io/gltf/read/import.h"
 #include "io/gltf/write/save.h"
 #include "io/image/image_io.h"
+#include "tests/support/process.h"
 #include "ui/jobs/map_thumbnails.h"
 #include "ui/jobs/material_maps.h"
 
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace blush::TEST_FILE {
 namespace {
-
-// A temporary folder, deleted with its files.
-class Folder {
-public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("blush-maps-" + std::to_string(getpid()))) {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
 
 ImagePtr checks(int width, int height, int channels = 3) {
     auto image = std::make_shared<Image>();
@@ -77,7 +64,7 @@ TEST(Maps, ReplacingKeepsTheUvTransform) {
 }
 
 TEST(Maps, SurviveSaveAndLoad) {
-    const Folder folder;
+    const test::TemporaryFolder folder;
     const auto imported = import_gltf(std::filesystem::path(BLUSH_ASSETS) / "scenes" / "card-and-mug.gltf");
     ASSERT_TRUE(imported);
     Document d(Project{imported->scene, {}, {}});
@@ -101,7 +88,7 @@ TEST(Maps, SurviveSaveAndLoad) {
 }
 
 TEST(Maps, InvalidImagesAreErrors) {
-    const Folder folder;
+    const test::TemporaryFolder folder;
     const auto refused = [&](const char* name, const std::string& bytes) {
         std::ofstream(folder / name, std::ios::binary) << bytes;
         EXPECT_FALSE(read_image(folder / name)) << name;

@@ -3,6 +3,7 @@
 #include "io/gltf/read/import.h"
 #include "render/light_mix/light_groups.h"
 #include "render/light_mix/light_mix.h"
+#include "tests/support/process.h"
 #include "tests/support/sample_project.h"
 #include "tests/ui/clipped_text.h"
 #include "tests/ui/imgui_test.h"
@@ -21,7 +22,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <imgui_internal.h> // the stack of popups
@@ -122,7 +122,6 @@ struct Widget {
 class ProbeFile {
 public:
     explicit ProbeFile(UiState& ui) : ui_(ui) { ui_.probe = Probe(file_); }
-    ~ProbeFile() { std::filesystem::remove(file_); }
 
     std::vector<Widget> widgets() const {
         ui_.probe.end_frame({});
@@ -141,7 +140,8 @@ public:
 
 private:
     UiState& ui_;
-    const std::filesystem::path file_ = std::filesystem::temp_directory_path() / "blush_long_names.json";
+    const test::TemporaryFolder folder_;
+    const std::filesystem::path file_ = folder_ / "probe.json";
 };
 
 class LongNames : public testing::Test {
@@ -378,14 +378,14 @@ TEST_F(LongNames, RouletteLab) {
 
 // A folder with long names, in the middle of a long path.
 struct LongFolder {
-    std::filesystem::path root = std::filesystem::temp_directory_path() / "blush_long_names";
+    test::TemporaryFolder temporary;
+    std::filesystem::path root = temporary.path();
     std::filesystem::path folder = root / long_name("Outer") / long_name("Inner");
     LongFolder() {
         std::filesystem::create_directories(folder / long_name("Folder"));
         for (const char* name : {"scene.gltf", "map.exr", "lamp.ies", "chart.csv"})
             std::ofstream(folder / (long_name("File") + "_" + name)) << "x";
     }
-    ~LongFolder() { std::filesystem::remove_all(root); }
 };
 
 TEST_F(LongNames, FileBrowser) {

@@ -2,6 +2,7 @@
 #include "io/gltf/read/import.h"
 #include "render/lights/light_links.h"
 #include "tests/support/eventually.h"
+#include "tests/support/process.h"
 #include "tests/support/sample_project.h"
 #include "tests/ui/imgui_test.h"
 #include "tests/ui/shipped_ocio_config.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <imgui_internal.h>
 #include <iterator>
@@ -249,7 +249,8 @@ TEST_F(Panels, AnEmptySceneAndAFrameWithoutPlanes) {
 }
 
 TEST_F(Panels, TheShortcutSheetListsAllKeys) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_shortcuts.json";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "probe.json";
     Document document;
     ui.probe = Probe(file);
     ui.show_shortcuts = true;
@@ -266,11 +267,11 @@ TEST_F(Panels, TheShortcutSheetListsAllKeys) {
     for (const Shortcut& s : shortcuts())
         EXPECT_EQ(written.find(std::string("\"Shortcut/") + s.group + "/" + s.name + "\"") != std::string::npos, s.press.key != key::none)
             << s.name;
-    std::filesystem::remove(file);
 }
 
 TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFoundOrMayBeMissing) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_status.json";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "probe.json";
     ui.probe = Probe(file);
     Document document;
     for (const char* reason : {"", "some light cannot be found: that of point lights"}) {
@@ -294,7 +295,6 @@ TEST_F(Panels, TheStatusBarSaysThatLightCannotBeFoundOrMayBeMissing) {
         for (const char* cell : {"some light cannot be found", "error: highlights missing?"})
             EXPECT_EQ(written.find(std::string("Status/") + cell) != std::string::npos, *reason != 0) << written;
     }
-    std::filesystem::remove(file);
 }
 
 TEST_F(Panels, NewScopesNeedAFrameForTheirWaveforms) {

@@ -1,5 +1,6 @@
 // EXR files from other programs: grouping channels to layers, display of layers, and invalid files.
 #include "core/files.h"
+#include "tests/support/process.h"
 #include "ui/snapshots/image_layers.h"
 #include "ui/snapshots/snapshots_view.h"
 
@@ -85,8 +86,8 @@ TEST(ImageLayers, RecogniseAPanorama) {
 
 class ImageFile : public testing::Test {
 protected:
-    std::filesystem::path file_ = std::filesystem::temp_directory_path() / ("blush_layers_" + std::to_string(::getpid()) + ".exr");
-    void TearDown() override { std::filesystem::remove(file_); }
+    test::TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_ / "layers.exr";
 };
 
 TEST_F(ImageFile, OpensWithAllItsChannels) {

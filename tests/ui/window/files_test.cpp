@@ -1,4 +1,5 @@
 // Saved UI settings: damaged files, recent files; folder listings.
+#include "tests/support/process.h"
 #include "ui/window/file_listing.h"
 #include "ui/window/file_places.h"
 #include "ui/window/window_settings.h"
@@ -7,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <utility>
 
 namespace blush::TEST_FILE {
@@ -15,18 +15,14 @@ namespace {
 
 class Files : public testing::Test {
 protected:
-    void SetUp() override {
-        folder = std::filesystem::temp_directory_path() / ("blush-ui-test-" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         const auto file = folder / name;
         std::filesystem::create_directories(file.parent_path());
         std::ofstream(file) << text;
         return file;
     }
-    std::filesystem::path folder;
+    test::TemporaryFolder temporary;
+    std::filesystem::path folder = temporary.path();
 };
 
 TEST_F(Files, SettingsRoundTrip) {

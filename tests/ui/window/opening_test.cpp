@@ -12,11 +12,11 @@
 #include "ui/window/file_places.h"
 
 #include "io/image/display_image.h"
+#include "tests/support/process.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <unistd.h>
 
 namespace blush::TEST_FILE {
 namespace {
@@ -245,7 +245,8 @@ TEST(GroundPlane, IsJustBelowTheModel) {
 }
 
 TEST(FilePlaces, ListsExistingFoldersOnce) {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("blush-places-" + std::to_string(getpid()));
+    const test::TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path();
     std::filesystem::create_directories(folder / "scenes");
     WindowSettings settings;
     settings.recent = {(folder / "scenes" / "a.gltf").string(), (folder / "scenes" / "b.gltf").string(),
@@ -260,7 +261,6 @@ TEST(FilePlaces, ListsExistingFoldersOnce) {
     EXPECT_EQ(scenes, 1u);
     EXPECT_EQ(gone, 0u);
     EXPECT_EQ(bookmarks, 1u);
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace

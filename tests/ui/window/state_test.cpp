@@ -1,5 +1,6 @@
 // Shortcuts, gestures, toasts, statistics and background jobs.
 #include "tests/support/eventually.h"
+#include "tests/support/process.h"
 #include "ui/jobs/background_job.h"
 #include "ui/window/automation.h"
 #include "ui/window/frame_budget.h"
@@ -166,11 +167,11 @@ TEST(FrameStats, CountsEditsShownInTheSameFrame) {
     stats.end_frame();
     stats.shown(2, start + 40ms);
     stats.end_frame();
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats_at_once.json";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "stats.json";
     ASSERT_TRUE(stats.write(file));
     std::ifstream in(file);
     const auto json = nlohmann::json::parse(in);
-    std::filesystem::remove(file);
     EXPECT_EQ(json["edits"], 2);
     EXPECT_EQ(json["edits_at_once"], 1);
 }
@@ -182,11 +183,11 @@ TEST(FrameStats, ListsLateFramesWithTheirTimes) {
     stats.add_frame({10, 20, 9}, start + 520ms);
     stats.add_frame({1, 30, 3}, start + 600ms);
     stats.add_unchanged_frame();
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "blush_frame_stats.json";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "stats.json";
     ASSERT_TRUE(stats.write(file));
     std::ifstream in(file);
     const auto json = nlohmann::json::parse(in);
-    std::filesystem::remove(file);
     EXPECT_EQ(json["frames"], 3);
     EXPECT_EQ(json["unchanged_frames"], 1);
     EXPECT_EQ(json["late"], 2);
