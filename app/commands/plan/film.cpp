@@ -1,6 +1,6 @@
 #include "app/commands/plan/film.h"
 
-#include "app/commands/plan/run_program.h"
+#include "app/common/run_program.h"
 #include "core/files.h"
 
 #include <fmt/format.h>

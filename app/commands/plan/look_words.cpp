@@ -38,9 +38,10 @@ Words words_given(const CLI::App& command) {
     return words;
 }
 
-Result<RenderOptions> options_of(const Words& words, const std::filesystem::path& folder) {
+Result<RenderOptions> options_of(const Words& words, const std::filesystem::path& folder, const RenderSettings& base) {
     CLI::App app;
     RenderOptions options;
+    options.settings = base;
     add_render_options(app, options);
     std::vector<std::string> arguments;
     for (const auto& [name, value] : words) {

@@ -17,7 +17,9 @@ Words words_given(const CLI::App& command);
 // True if a look may set this option.
 bool is_look_option(const std::string& name);
 
-// The parser of `blush render`, for words. `folder`: base of a relative environment file. Errors: an unknown option, its invalid value.
-Result<RenderOptions> options_of(const Words& words, const std::filesystem::path& folder);
+// The parser of `blush render`, for words. `folder`: base of a relative environment file. `base`: the settings that no word overrides.
+// Errors: an unknown option, its invalid value.
+Result<RenderOptions> options_of(const Words& words, const std::filesystem::path& folder,
+                                 const RenderSettings& base = recommended_settings());
 
 } // namespace blush

@@ -5,6 +5,7 @@
 #include "app/commands/plan/pilot.h"
 #include "app/commands/progress.h"
 #include "app/commands/render/layers.h"
+#include "io/gltf/read/camera_aspects.h"
 #include "io/image/snapshot.h"
 #include "io/project/json_fields.h"
 #include "io/project/scene_edits_json.h"
@@ -92,31 +93,52 @@ void provide_groups(const RenderPlan& plan, Scene& scene) {
         scene.mix.grouping = LightMix::Grouping::by_light;
 }
 
-Result<PlanLook> resolve_look(const PlanInput& input, const LookRequest& request, const RenderPlan& plan, const ReadScene& scene) {
-    const std::filesystem::path& file = scene.file;
-    Result<RenderOptions> options = options_of(request.words, {});
+// What looks begin from: a scene as its file has it, or as a snapshot has it.
+struct Base {
+    std::string file, name; // for messages; of the looks
+    ReadScene scene;
+    std::optional<Scene> edited = {}; // of a snapshot
+    RenderSettings settings = recommended_settings();
+};
+
+// The base with what the options override.
+Result<LoadedScene> overridden_base(const Base& base, const RenderOptions& options, float aspect) {
+    const ReadScene& scene = base.scene;
+    if (!base.edited) return overridden(scene.imported, scene.file, options.overrides, aspect);
+    LoadedScene loaded{scene.imported.scene, *base.edited, scene.imported.report, 0};
+    if (const Result<void> applied = apply_overrides(options.overrides, loaded.scene, aspect, true); !applied)
+        return in_file(applied.error(), base.file);
+    // A snapshot keeps its frame, unless the look has a camera of its own.
+    loaded.camera_aspect = options.overrides.camera.empty() ? float(base.settings.width) / float(base.settings.height)
+                                                            : aspect_of_camera(camera_aspects(scene.imported.origin), loaded.scene);
+    return loaded;
+}
+
+Result<PlanLook> resolve_look(const PlanInput& input, const LookRequest& request, const RenderPlan& plan, const Base& base) {
+    const std::filesystem::path folder = base.scene.file.parent_path();
+    Result<RenderOptions> options = options_of(request.words, {}, base.settings);
     if (!options) return in_file(options.error(), request.name);
     Result<RenderSettings> settings = settings_of(*options);
     if (!settings) return in_file(settings.error(), request.name);
-    const float aspect = float(settings->width) / float(settings->height);
-    Result<LoadedScene> loaded = overridden(scene.imported, file, options->overrides, aspect);
+    Result<LoadedScene> loaded = overridden_base(base, *options, float(settings->width) / float(settings->height));
     if (!loaded) return loaded.error();
     if (loaded->camera_aspect > 0 && !(options->width_given && options->height_given)) {
         follow_aspect(*options, loaded->camera_aspect);
         if (settings = settings_of(*options); !settings) return in_file(settings.error(), request.name);
     }
     for (const std::string& edits : request.edits) {
-        Result<Scene> edited = apply_edits_json(loaded->scene, edits, file.parent_path());
+        Result<Scene> edited = apply_edits_json(loaded->scene, edits, folder);
         if (!edited) return in_file(edited.error(), request.name);
         loaded->scene = *std::move(edited);
     }
     if (request.turn) loaded->scene.view = turned(loaded->scene.view, world_bounds(loaded->scene), *request.turn);
     provide_groups(plan, loaded->scene);
-    Result<PlanLook> look = recipe_of(input, request.name, plan, *loaded, file.parent_path(), *settings);
+    Result<PlanLook> look = recipe_of(input, request.name, plan, *loaded, folder, *settings);
     if (!look) return look.error();
     look->words = request.words;
     look->sequence = request.sequence;
     if (request.turn) look->words["turn"] = fmt::format("{:.6g}", *request.turn);
+    if (base.edited) look->words["snapshot"] = std::filesystem::path(base.file).filename().string();
     return look;
 }
 
@@ -154,58 +176,58 @@ Result<void> measure_first(const PlanInput& input, RenderPlan& plan, size_t firs
     return {};
 }
 
-Result<void> add_scene(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
+Result<void> add_looks(const PlanInput& input, const Base& base, RenderPlan& plan, const RenderRun& run,
                        const std::atomic<bool>& interrupted) {
-    const Result<ReadScene> scene = read_scene(input, file, plan, run, interrupted);
-    if (!scene) return scene.error();
-    const Result<std::vector<Axis>> axes = axes_of(input, scene->imported.scene);
-    if (!axes) return in_file(axes.error(), file);
-    const Result<std::vector<LookRequest>> requests = combinations(std::filesystem::path(file).stem().string(), input.words, *axes);
+    const Result<std::vector<Axis>> axes = axes_of(input, base.scene.imported.scene);
+    if (!axes) return in_file(axes.error(), base.file);
+    const Result<std::vector<LookRequest>> requests = combinations(base.name, input.words, *axes);
     if (!requests) return requests.error();
     const size_t first_look = plan.looks.size();
     for (const LookRequest& request : *requests) {
-        Result<PlanLook> look = resolve_look(input, request, plan, *scene);
+        Result<PlanLook> look = resolve_look(input, request, plan, base);
         if (!look) return look.error();
         plan.looks.push_back(*std::move(look));
-        if (interrupted) return Error{.file = file, .what = "interrupted"};
+        if (interrupted) return Error{.file = base.file, .what = "interrupted"};
     }
-    return measure_first(input, plan, first_look, *scene, run, interrupted);
+    return measure_first(input, plan, first_look, base.scene, run, interrupted);
 }
 
-// A snapshot is a look as it is; only the size may be given anew.
+Result<void> add_scene(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
+                       const std::atomic<bool>& interrupted) {
+    Result<ReadScene> scene = read_scene(input, file, plan, run, interrupted);
+    if (!scene) return scene.error();
+    return add_looks(input, {file, std::filesystem::path(file).stem().string(), *std::move(scene)}, plan, run, interrupted);
+}
+
+// Where the scene of a snapshot is. Errors: nowhere.
+Result<std::filesystem::path> scene_of_snapshot(const PlanInput& input, const std::string& file, const SnapshotMetadata& m) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path(), name = std::filesystem::path(m.scene).filename();
+    std::vector<std::filesystem::path> candidates{folder / m.scene_file, folder / name};
+    for (const std::string& scene : input.scenes) candidates.emplace_back(scene);
+    std::error_code code;
+    for (const std::filesystem::path& candidate : candidates)
+        if (candidate.filename() == name && std::filesystem::is_regular_file(candidate, code)) return candidate;
+    return Error{.file = file, .what = fmt::format("its scene {} was not found beside it nor among the scenes of the plan", m.scene)};
+}
+
+// A snapshot is a look with its edits, camera and settings; what is given besides them overrides them.
 Result<void> add_snapshot(const PlanInput& input, const std::string& file, RenderPlan& plan, const RenderRun& run,
                           const std::atomic<bool>& interrupted) {
     const Result<std::map<std::string, std::string>> texts = read_metadata(file);
     if (!texts) return texts.error();
     const Result<SnapshotMetadata> m = read_snapshot_metadata(*texts);
     if (!m) return in_file(m.error(), file);
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    std::vector<std::filesystem::path> candidates{folder / m->scene_file, folder / std::filesystem::path(m->scene).filename()};
-    for (const std::string& scene : input.scenes) candidates.emplace_back(scene);
-    std::error_code code;
-    for (const std::filesystem::path& candidate : candidates) {
-        if (candidate.filename() != std::filesystem::path(m->scene).filename() || !std::filesystem::is_regular_file(candidate, code))
-            continue;
-        const Result<ReadScene> scene = read_scene(input, candidate, plan, run, interrupted);
-        if (!scene) return scene.error();
-        if (plan.scenes.back().hash != m->scene_hash)
-            return Error{.file = file, .what = fmt::format("was made from another version of {}", candidate.string())};
-        Result<Scene> edited = m->edits.empty() ? Result<Scene>(scene->imported.scene)
-                                                : apply_edits_json(scene->imported.scene, m->edits, candidate.parent_path());
-        if (!edited) return in_file(edited.error(), file);
-        LoadedScene loaded{scene->imported.scene, *std::move(edited), scene->imported.report, 0};
-        provide_groups(plan, loaded.scene);
-        RenderSettings settings = m->settings;
-        if (input.options.width_given) settings.width = input.options.settings.width;
-        if (input.options.height_given) settings.height = input.options.settings.height;
-        Result<PlanLook> look = recipe_of(input, m->name.empty() ? std::filesystem::path(file).stem().string() : m->name, plan, loaded,
-                                          scene->file.parent_path(), settings);
-        if (!look) return in_file(look.error(), file);
-        look->words["snapshot"] = std::filesystem::path(file).filename().string();
-        plan.looks.push_back(*std::move(look));
-        return measure_first(input, plan, plan.looks.size() - 1, *scene, run, interrupted);
-    }
-    return Error{.file = file, .what = fmt::format("its scene {} was not found beside it nor among the scenes of the plan", m->scene)};
+    const Result<std::filesystem::path> found = scene_of_snapshot(input, file, *m);
+    if (!found) return found.error();
+    Result<ReadScene> scene = read_scene(input, *found, plan, run, interrupted);
+    if (!scene) return scene.error();
+    if (plan.scenes.back().hash != m->scene_hash)
+        return Error{.file = file, .what = fmt::format("was made from another version of {}", found->string())};
+    Result<Scene> edited =
+        m->edits.empty() ? Result<Scene>(scene->imported.scene) : apply_edits_json(scene->imported.scene, m->edits, found->parent_path());
+    if (!edited) return in_file(edited.error(), file);
+    const std::string name = m->name.empty() ? std::filesystem::path(file).stem().string() : m->name;
+    return add_looks(input, {file, name, *std::move(scene), *std::move(edited), m->settings}, plan, run, interrupted);
 }
 
 // Safe for files, and different from each other: frames of one sequence stay together.

@@ -1,12 +1,12 @@
 #include "app/commands/plan/pilot.h"
 
 #include "app/commands/common.h"
-#include "app/commands/plan/run_program.h"
 #include "app/commands/progress.h"
 #include "app/commands/render/layers.h"
 #include "app/commands/render/peak_memory.h"
 #include "app/commands/render/render_loop.h"
 #include "app/commands/render/resume_image.h"
+#include "app/common/run_program.h"
 #include "render/renderer.h"
 
 #include <algorithm>

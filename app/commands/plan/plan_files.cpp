@@ -68,7 +68,8 @@ done
 threads=$((($(nproc) + jobs - 1) / jobs))
 # Tasks inherit the lock: while one of them runs, no other script can begin.
 exec 9>local.lock
-flock -n 9 || {
+# Waits a moment for those who only look whether it runs.
+flock -w 1 9 || {
     echo "run-local.sh: this plan is being rendered already, see local.pid" >&2
     exit 1
 }
@@ -133,6 +134,24 @@ done
 @PROGRAM@ plan merge .
 )sh";
     return replaced(replaced(text, "@PROGRAM@", plan.program), "@FOLDER@", shell_quoted(folder.string()));
+}
+
+std::string stop_script(const std::filesystem::path& folder) {
+    constexpr const char* text = R"sh(#!/bin/sh
+# Stops what runs of this plan: run-local.sh on this machine, and its jobs in Slurm. Tasks keep their samples so far.
+set -eu
+cd @FOLDER@
+# run-local.sh and its tasks hold this lock: only then the number in local.pid is that of the script.
+if [ -e local.lock ] && ! flock -n local.lock true; then
+    kill -TERM "$(cat local.pid)" || :
+fi
+if [ -d slurm ] && command -v scancel >/dev/null; then
+    squeue --noheader --format='%F %Z' | while read -r job folder; do
+        [ "$folder" != @FOLDER@ ] || echo "$job"
+    done | sort -u | xargs -r scancel
+fi
+)sh";
+    return replaced(text, "@FOLDER@", shell_quoted(folder.string()));
 }
 
 std::string submit_script(const std::filesystem::path& folder, const RenderPlan& plan) {
@@ -216,6 +235,7 @@ std::string explanation(const RenderPlan& plan) {
                        "merge.txt        one command a line, per look, after the tasks\n"
                        "run-local.sh     renders what is missing on this machine, and merges\n"
                        "submit-slurm.sh  submits what is missing and then the merges to Slurm; slurm-*.sh are its jobs\n"
+                       "stop.sh          stops what runs here or in Slurm; samples so far are kept\n"
                        "scenes           copies of the scenes, if they were gathered\n"
                        "parts            sums of samples; logs, one per task; merged, the images; allocations, of adaptive sampling\n"
                        "\n"
@@ -260,6 +280,7 @@ Result<void> write_plan_files(const std::filesystem::path& folder, const RenderP
     if (const Result<void> written = write_script(folder / "slurm-job.sh", job_script); !written) return written;
     if (const Result<void> written = write_script(folder / "slurm-sheet.sh", sheet_script(folder, plan)); !written) return written;
     if (const Result<void> written = write_script(folder / "run-local.sh", local_script(folder, plan)); !written) return written;
+    if (const Result<void> written = write_script(folder / "stop.sh", stop_script(folder)); !written) return written;
     return write_script(folder / "submit-slurm.sh", submit_script(folder, plan));
 }
 

@@ -20,7 +20,7 @@ Result<TaskResult> render_missing(const std::filesystem::path& folder, const Ren
     if (!part) return part.error();
     if (part->samples != missing)
         return Error{.file = part->file.string(),
-                     .what = fmt::format("stopped by a signal with the samples {}:{} of {}:{}; run the task again for the rest",
+                     .what = fmt::format("{} with the samples {}:{} of {}:{}; run the task again for the rest", stopped_by_signal,
                                          missing.first, part->samples.last, missing.first, missing.last)};
     return TaskResult{missing, part->seconds};
 }

@@ -20,6 +20,9 @@ private:
     int file_ = -1;
 };
 
+// In the last line of a task that was told to end.
+constexpr const char* stopped_by_signal = "stopped by a signal";
+
 // How a task stands that is not done.
 struct TaskState {
     bool begun = false;   // it has a log

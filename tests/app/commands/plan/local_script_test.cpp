@@ -56,6 +56,25 @@ TEST_F(LocalScript, MergesWhileItRendersAndGoesOnAfterSigterm) {
     EXPECT_EQ(next.end(SIGTERM), 143);
 }
 
+TEST_F(LocalScript, IsStoppedByTheStopScript) {
+    plan.spp = 1 << 16;
+    plan.chunk = 1 << 9;
+    plan.make();
+    EXPECT_EQ(run({plan.folder + "/stop.sh"}).exit_code, 0) << "nothing runs";
+    Started script_running(Started::Program{{script(), "--jobs", "2"}});
+    EXPECT_TRUE(eventually([&] { return plan.status()["running"] == 2; }));
+    EXPECT_EQ(run({plan.folder + "/stop.sh"}).exit_code, 0);
+    EXPECT_EQ(script_running.wait(), 143);
+    const nlohmann::json stopped = plan.status();
+    EXPECT_EQ(stopped["running"], 0);
+    EXPECT_GT(stopped["samples"], 0);
+    // A number that is left of an earlier run may belong to another process by now.
+    Started bystander(Started::Program{{"/bin/sleep", "60"}});
+    write_text(plan.folder + "/local.pid", std::to_string(bystander.pid()) + "\n");
+    EXPECT_EQ(run({plan.folder + "/stop.sh"}).exit_code, 0);
+    EXPECT_EQ(bystander.end(SIGKILL), 128 + SIGKILL) << "it was ended";
+}
+
 TEST_F(LocalScript, EndsIfTasksFail) {
     const std::string copy = scene_copy(folder, "cornell");
     plan.scene = copy;

@@ -91,6 +91,7 @@ public:
     Started(const Started&) = delete;
     Started& operator=(const Started&) = delete;
 
+    int pid() const { return pid_; }
     void signal(int number) const { kill(pid_, number); }
     // Exit code, or 128 + signal.
     int wait() {

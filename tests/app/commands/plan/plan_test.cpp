@@ -177,6 +177,23 @@ TEST(Plan, SnapshotsAreLooks) {
     EXPECT_NE(changed.err.find("another version of"), std::string::npos) << changed.err;
 }
 
+// Options and combinations begin with the edits, the camera and the settings of the snapshot.
+TEST(Plan, SnapshotsCanBeTurnedAndOverridden) {
+    const TemporaryFolder folder;
+    const std::string scene = test::scene_copy(folder, "card-and-mug");
+    const Arguments settings{"--env", "constant=0.1,0.2,0.9", "--seed", "7", "--quiet"};
+    expect_done(test::joined({"render", scene, "-o", folder / "view.exr", "--spp", "2", "--size", "80x48", "--layers", "film"}, settings));
+    const SmallPlan plan{.scene = scene, .folder = folder / "plan", .spp = 8};
+    expect_done({"plan", "-o", plan.folder, "--snapshots", folder / "view.exr", "--spp", "8", "--chunk", "8", "--size", "40x",
+                 "--max-bounces", "2", "--turntable", "2", "--quiet"});
+    EXPECT_EQ(look_names(plan), (std::set<std::string>{"view.0000", "view.0001"}));
+    run_all(plan);
+    expect_done(
+        test::joined({"render", scene, "-o", folder / "whole.exr", "--samples", "0:8", "--size", "40x24", "--max-bounces", "2"}, settings));
+    test::expect_same_pixels(plan.folder + "/merged/view.0000.exr", folder / "whole.exr");
+    EXPECT_NE(read_layers(plan.folder + "/merged/view.0001.exr")->find("R")->values, read_layers(folder / "whole.exr")->find("R")->values);
+}
+
 // The folder alone is enough, wherever it is then.
 TEST(Plan, GathersItsScenes) {
     const TemporaryFolder folder;
