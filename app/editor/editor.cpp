@@ -6,10 +6,12 @@
 #include "app/editor/editor_commands.h"
 #include "app/editor/editor_convergence.h"
 #include "app/editor/editor_display.h"
+#include "app/editor/editor_farm.h"
 #include "app/editor/editor_lesson.h"
 #include "app/editor/editor_messages.h"
 #include "app/editor/editor_panels.h"
 #include "app/editor/editor_presentation.h"
+#include "app/editor/editor_probe.h"
 #include "app/editor/editor_snapshots.h"
 #include "app/editor/guide.h"
 #include "app/editor/live_mix.h"
@@ -85,6 +87,7 @@ private:
     EditorSaving saving_;
     DesktopFileDialog desktop_file_dialog_{&Window::wake};
     bool leaving_ = false;
+    EditorFarm farm_{&Window::wake, options_.threads};
     EditorSnapshots snapshots_{&Window::wake, options_.assets, [this](std::function<void()> then) {
                                    saving_.before_losing_edits("opening another scene", std::move(then));
                                }};
@@ -111,7 +114,7 @@ private:
     Layout layout_;                          // of the last UI frame
     bool instruments_restored_ = false;
     ImageRect image_;
-    enum class SnapshotDue { none, keep, png } snapshot_due_ = SnapshotDue::none; // pending until an image in full resolution exists
+    enum class SnapshotDue { none, keep, png, plan } snapshot_due_ = SnapshotDue::none; // pending until an image in full resolution exists
     Clock::time_point frame_begin_{};
 };
 
@@ -191,6 +194,7 @@ void Editor::poll() {
         window_->request_frames(2);
     }
     snapshots_.poll(finished.opened, document_, ui_, files_, session_);
+    farm_.poll(ui_, files_.scene_file(), snapshots_);
     if (window_->close_requested()) {
         window_->cancel_close();
         window_->request_frames(2);
@@ -318,10 +322,11 @@ void Editor::handle_requests(PanelContext& c) {
     for (const FileRequest& request : std::exchange(ui_.files, {})) takers().take(request);
     if (std::exchange(ui_.meter_exposure, false) && !lesson_.document()) metering_.want(document_.project(), false);
     saving_.poll_dialog();
-    convergence_.handle_requests(ui_, output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets),
-                                 files_.scene_file());
+    const std::filesystem::path output = output_folder(ui_.settings.snapshot_folder, files_.scene_file(), options_.assets);
+    convergence_.handle_requests(ui_, output, files_.scene_file());
+    if (farm_.handle_requests(c, output)) snapshot_due_ = SnapshotDue::plan;
     snapshots_.handle_requests(document_, ui_, files_);
-    const bool paused = ui_.paused || convergence_.is_rendering_reference();
+    const bool paused = ui_.paused || convergence_.is_rendering_reference() || farm_.is_measuring();
     if (session_paused_ != paused) session_.pause(session_paused_ = paused);
     // While a mix is edited, only its drawing matters.
     if (session_yields_ != viewport_.is_subsampled()) session_.yield_to_ui(session_yields_ = viewport_.is_subsampled());
@@ -355,6 +360,8 @@ void Editor::save_due_snapshot() {
         submitted_->settings, files_.imported(), files_.scene_file(), camera_frame_of(ui_, document_.project().scene, *frame)};
     if (snapshot_due_ == SnapshotDue::keep)
         snapshots_.keep(std::move(shown), session_);
+    else if (snapshot_due_ == SnapshotDue::plan)
+        farm_.make(context(), std::move(shown));
     else
         snapshots_.save_png(shown, color_, ui_);
     snapshot_due_ = SnapshotDue::none;
@@ -424,17 +431,9 @@ void Editor::latest() {
 }
 
 void Editor::draw() {
-    const Toasts& toasts = ui_.toasts;
-    ProbeState state;
-    state.image = {image_.x, image_.y, image_.width, image_.height};
-    state.revision = submitted_revision();
-    if (!toasts.all().empty()) state.toast = toasts.all().back().text;
     const FramePtr& shown = viewport_.shown();
+    ProbeState state = probe_state(image_, submitted_revision(), ui_.toasts, shown);
     if (shown) {
-        state.width = shown->width;
-        state.height = shown->height;
-        state.samples = shown->samples;
-        state.complete = shown->complete;
         state.up_to_date = shown->revision == submitted_revision() && !viewport_.is_subsampled();
         state.shown = shown->revision <= last_preview_ ? "while textures load" : shown_text(ui_.denoise, *shown, images_.denoised.get());
     }

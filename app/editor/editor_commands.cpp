@@ -293,6 +293,7 @@ constexpr CommandAction command_actions[] = {
     {Command::light_mix, toggle_light_mix},
     {Command::bounces, [](PanelContext& c) { toggle_instrument(c, "bounces"); }},
     {Command::import_report, [](PanelContext& c) { toggle_instrument(c, "import_report"); }},
+    {Command::farm, [](PanelContext& c) { toggle_instrument(c, "farm"); }},
     {Command::health, [](PanelContext& c) { toggle_instrument(c, "health"); }},
     {Command::next_aov, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), 1)); }},
     {Command::previous_aov, [](PanelContext& c) { show_aov(c, stepped(c.ui.aov, c.frame.get(), -1)); }},
@@ -305,6 +306,7 @@ constexpr CommandAction command_actions[] = {
     {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
     {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
     {Command::strategies, [](PanelContext& c) { toggle_instrument(c, "strategies"); }},
+    {Command::samplers, [](PanelContext& c) { toggle_instrument(c, "samplers"); }},
     {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},
 };
 
@@ -313,7 +315,7 @@ constexpr Command commands_of_editor[] = {
     Command::open,         Command::import_scene, Command::environment,     Command::ies,
     Command::map,          Command::reload,       Command::save_scene,      Command::save_scene_as,
     Command::snapshot_exr, Command::snapshot_png, Command::snapshot_folder, Command::load_convergence,
-    Command::full_screen,  Command::quit,
+    Command::full_screen,  Command::quit,         Command::farm_looks,
 };
 
 constexpr bool is_each_command_executed_once() {

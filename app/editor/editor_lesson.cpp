@@ -74,7 +74,22 @@ EditorLesson::Kept EditorLesson::kept(const PanelContext& c) {
             ui.frame,
             ui.zoom,
             ui.snapshots.open,
-            ui.opening_page};
+            ui.opening_page,
+            {}};
+}
+
+// Panels of a step that would lie behind the text of the lesson move to the other dock.
+void EditorLesson::make_room(UiState& ui, const std::vector<std::string>& panels) {
+    Dock& dock = ui.settings.dock;
+    const DockTab lesson = place_of(dock, "lesson", DockSide::bottom);
+    for (const std::string& id : panels) {
+        const Instrument* instrument = find_instrument(instruments(), id);
+        if (!instrument) continue;
+        DockTab& tab = place_of(dock, id, instrument->side);
+        if (lesson.floats || tab.floats || tab.side != lesson.side) continue;
+        if (std::ranges::count(kept_->moved, id, &DockTab::id) == 0) kept_->moved.push_back(tab);
+        tab.side = lesson.side == DockSide::bottom ? DockSide::right : DockSide::bottom;
+    }
 }
 
 bool EditorLesson::poll(PanelContext c, const Project& user) {
@@ -154,6 +169,7 @@ void EditorLesson::show(PanelContext& c, size_t step) {
     forget_places(c.ui);
     c.ui.home = home_at_opening(document_->project().scene);
     c.ui.frame = {.fit = c.ui.frame.fit};
+    make_room(c.ui, s.panels);
     open_panels(c, s.panels, lesson_panels);
     c.ui.tool = tool_of(s.tool);
     frames_to_front_ = 3;
@@ -182,6 +198,7 @@ bool EditorLesson::end(PanelContext c) {
     UiState& ui = c.ui;
     forget_places(ui);
     open_panels(c, kept_->panels, lesson_panels);
+    for (const DockTab& tab : kept_->moved) place_of(ui.settings.dock, tab.id, tab.side).side = tab.side;
     // Those that come back do not come to the front of their dock; those that were there do.
     ui.docks.open = open_instruments(instruments(), c);
     ui.docks.to_front = std::set<std::string>(kept_->front.begin(), kept_->front.end());

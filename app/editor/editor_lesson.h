@@ -51,6 +51,7 @@ private:
         CameraFrame frame;
         ImageZoom zoom;
         bool strip = false, opening_page = false;
+        std::vector<DockTab> moved; // places of panels that make room for the text of the lesson
     };
 
     // A step that the user went to, and the end of the undo history then.
@@ -68,6 +69,7 @@ private:
     // True if the document has the state of a step with another scene.
     bool follow_document(PanelContext& c);
     static Kept kept(const PanelContext& c);
+    void make_room(UiState& ui, const std::vector<std::string>& panels);
 
     std::filesystem::path assets_;
     std::function<void()> wake_;

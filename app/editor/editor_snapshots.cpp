@@ -155,6 +155,7 @@ void EditorSnapshots::read_next(const std::filesystem::path& open_scene) {
     to_read_.pop_front();
     const std::filesystem::path& file = opening_file_ = next.file;
     restores_opened_ = next.to_restore;
+    opens_merged_ = next.merged;
     opening_ = std::make_unique<BackgroundJob<Result<OpenAnswer>>>(
         "Opening " + file.filename().string(),
         [next, open_scene](JobProgress&) {
@@ -181,7 +182,10 @@ void EditorSnapshots::finish_opening(Document& document, UiState& ui, EditorFile
     if (!result) return;
     opening_.reset();
     if (!restores_opened_) {
-        if (*result && (**result).snapshot) add_to_strip(*std::move((**result).snapshot), ui)->unload();
+        if (*result && (**result).snapshot && opens_merged_)
+            add_merged(*std::move((**result).snapshot), ui);
+        else if (*result && (**result).snapshot)
+            add_to_strip(*std::move((**result).snapshot), ui)->unload();
         return;
     }
     if (!*result) return ui.toasts.fail(result->error().text());
@@ -209,6 +213,19 @@ void EditorSnapshots::show_image(std::shared_ptr<ImageLayers> layers, UiState& u
     ui.snapshots.open = true;
     Comparison& compare = ui.snapshots.compare;
     compare = {.mode = Comparison::Mode::flicker, .a = ui.snapshots.add(std::move(s)), .b = live_image, .kind = compare.kind};
+}
+
+void EditorSnapshots::show_merged(const std::filesystem::path& file) {
+    if (std::ranges::count(to_read_, file, &ToRead::file) == 0) to_read_.push_back({.file = file, .merged = true});
+}
+
+void EditorSnapshots::add_merged(OpenedSnapshot opened, UiState& ui) {
+    const auto older = std::ranges::find(ui.snapshots.list, opened.snapshot.file, &Snapshot::file);
+    if (!merged_.insert(opened.snapshot.file).second && older == ui.snapshots.list.end()) return; // the user has removed it
+    const std::optional<uint64_t> older_id = older == ui.snapshots.list.end() ? std::nullopt : std::optional((*older)->id);
+    const SnapshotPtr newer = add_to_strip(std::move(opened), ui);
+    newer->unload();
+    if (older_id) ui.snapshots.replace(*older_id, newer->id);
 }
 
 SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {

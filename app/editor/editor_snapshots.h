@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace blush {
 
@@ -47,6 +48,9 @@ public:
     // Opens an EXR. A snapshot is added to the strip and its state is restored. An image from another program is added to the
     // strip with its layers and shown in the comparison. `panoramas_light`: a panorama becomes the environment instead.
     void open(const std::filesystem::path& file, const std::filesystem::path& open_scene, bool panoramas_light);
+    // Adds a merged image of a plan to the strip, or replaces an older state of it there. One that the user has removed from the strip
+    // does not come back.
+    void show_merged(const std::filesystem::path& file);
     // Executes requests of panels.
     void handle_requests(Document& document, UiState& ui, EditorFiles& files);
 
@@ -79,6 +83,7 @@ private:
     bool will_be_written(uint64_t id) const;
     void free_memory(UiState& ui);
     void read_next(const std::filesystem::path& open_scene);
+    void add_merged(OpenedSnapshot opened, UiState& ui);
     SnapshotPtr add_to_strip(OpenedSnapshot opened, UiState& ui);
     void restore(const SnapshotPtr& snapshot, Document& document, UiState& ui, EditorFiles& files);
     void continue_restore(Document& document, UiState& ui, const EditorFiles& files);
@@ -94,11 +99,13 @@ private:
 
     std::filesystem::path opening_file_;
     std::unique_ptr<BackgroundJob<Result<OpenAnswer>>> opening_;
-    bool restores_opened_ = false;
+    bool restores_opened_ = false, opens_merged_ = false;
+    std::set<std::filesystem::path> merged_; // those that were in the strip
     struct ToRead {
         std::filesystem::path file;
         bool to_restore = false; // otherwise only add it to the strip
         bool panoramas_light = false;
+        bool merged = false; // of a plan: replaces an older state of this file
     };
     std::deque<ToRead> to_read_;
     // Snapshots whose state is not computed yet.

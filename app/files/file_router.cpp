@@ -22,7 +22,8 @@ bool FileRouter::browse_for(Command command) {
                                                   {Command::ies, Use::ies},
                                                   {Command::map, Use::map},
                                                   {Command::snapshot_folder, Use::snapshot_folder},
-                                                  {Command::load_convergence, Use::convergence}};
+                                                  {Command::load_convergence, Use::convergence},
+                                                  {Command::farm_looks, Use::looks}};
     for (const auto& [asked, use] : asking) {
         if (command != asked) continue;
         browse(use);
@@ -43,6 +44,7 @@ void FileRouter::take(const FileRequest& request) {
     case FileRequest::Use::convergence: return convergence.load(ui, request.path);
     case FileRequest::Use::ies: return files.load_ies(request.path, document, ui);
     case FileRequest::Use::map: return files.load_map(request.path, ui);
+    case FileRequest::Use::looks: ui.farm.choices.looks_file = request.path; return;
     case FileRequest::Use::snapshot_folder:
         ui.settings.snapshot_folder = request.path.string();
         return ui.toasts.note("Snapshots go to " + request.path.string());

@@ -26,7 +26,10 @@ void close_region(PanelContext& c, bool open) {
 
 void open_roulette(PanelContext& c, bool open) {
     c.ui.roulette.open = open;
-    if (!open) c.ui.roulette.runner.reset(); // it measures as long as the panel is open
+    if (open) return;
+    // It measures as long as the panel is open.
+    c.ui.roulette.runner.reset();
+    c.ui.roulette.survivors.stop();
 }
 
 void open_strategies(PanelContext& c, bool open) {
@@ -35,6 +38,13 @@ void open_strategies(PanelContext& c, bool open) {
     // It renders as long as the panel is open.
     c.ui.strategies.runner.reset();
     c.ui.strategies.state = {};
+}
+
+void open_sampler(PanelContext& c, bool open) {
+    c.ui.sampler.open = open;
+    if (open) return;
+    c.ui.sampler.runner.reset(); // it measures as long as the panel is open
+    c.ui.sampler.state = {};
 }
 
 void open_bleed(PanelContext& c, bool open) {
@@ -62,6 +72,8 @@ const Instrument table[] = {
      open_roulette, draw_roulette_panel},
     {"strategies", "Strategies", guide_page::strategies, bottom, 60, 26, true, [](const PanelContext& c) { return c.ui.strategies.open; },
      open_strategies, draw_strategies_panel},
+    {"samplers", "Samplers", guide_page::samplers, right, 28, 48, true, [](const PanelContext& c) { return c.ui.sampler.open; },
+     open_sampler, draw_sampler_panel},
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),
     by_flag<[](auto& ui) { return &ui.meters.open; }>("meters", "Light meters", guide_page::measuring, bottom, 36, 16, draw_meters_panel),
     by_flag<[](auto& ui) { return &ui.paths.open; }>("paths", "Paths", guide_page::paths, right, 26, 48, draw_paths_panel),
@@ -72,6 +84,7 @@ const Instrument table[] = {
      draw_lesson_panel},
     {"bleed", "Bleed", guide_page::bleed, right, 34, 40, true, [](const PanelContext& c) { return c.ui.bleed.open; }, open_bleed,
      draw_bleed_panel},
+    by_flag<[](auto& ui) { return &ui.farm.open; }>("farm", "Farm", guide_page::farm, right, 28, 44, draw_farm_panel),
     by_flag<[](auto& ui) { return &ui.show_history; }>("history", "History", guide_page::docks, right, 18, 22, draw_history),
     by_flag<[](auto& ui) { return &ui.import_report.open; }>("import_report", "Import report", guide_page::own_file, right, 34, 30,
                                                              draw_import_report, false),

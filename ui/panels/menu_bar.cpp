@@ -101,6 +101,8 @@ void draw_file_menu(PanelContext& c) {
     item(c, Command::snapshot_folder);
     item(c, Command::snapshots_beside_scene, !c.ui.settings.snapshot_folder.empty());
     ImGui::Separator();
+    item(c, Command::farm, true, nullptr, c.ui.farm.open);
+    ImGui::Separator();
     item(c, Command::load_convergence);
     ImGui::Separator();
     item(c, Command::quit);
@@ -199,6 +201,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::convergence, true, nullptr, c.ui.convergence.open);
     item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
     item(c, Command::strategies, true, nullptr, c.ui.strategies.open);
+    item(c, Command::samplers, true, nullptr, c.ui.sampler.open);
     item(c, Command::health, true, nullptr, c.ui.health.open);
 }
 

@@ -53,9 +53,12 @@ void draw_bounces_panel(PanelContext& c);
 void draw_lesson_panel(PanelContext& c);
 void draw_light_mix_panel(PanelContext& c);
 void draw_health_panel(PanelContext& c);
+void draw_farm_panel(PanelContext& c);
 void draw_import_report(PanelContext& c);
 void draw_roulette_panel(PanelContext& c);
 void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: the measurements
+void draw_sampler_panel(PanelContext& c);
+void draw_sampler_report(PanelContext& c, const SamplerReport& report); // the lower part of that panel: the measurements
 void draw_strategies_panel(PanelContext& c);
 void draw_strategy_report(PanelContext& c, const StrategyReport* report); // that panel without its job; null: no round yet
 void draw_light_table(PanelContext& c);

@@ -1,7 +1,7 @@
 // Render tab: size, stop rules and path tracing settings. The same settings as `blush render` has.
 #include "scene/reuse_setting.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/roulette_fields.h"
+#include "ui/panels/roulette/roulette_fields.h"
 #include "ui/panels/strategies/heuristic_fields.h"
 #include "ui/widgets/tooltip.h"
 #include "ui/widgets/widgets.h"

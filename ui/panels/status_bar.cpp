@@ -157,6 +157,9 @@ void draw_status_bar(PanelContext& c) {
     if (c.ui.zoom.scale > 0)
         cells.push_back({5, fmt::format("{:.0f} %", 100 * c.ui.zoom.scale), "Zoom: screen pixels per image pixel. Z switches back to fit.",
                          tone::dim_text, 5});
+    if (const FarmPlan* plan = c.ui.farm.running())
+        cells.push_back({12, "farm: " + progress_text(*plan), plan->folder.filename().string() + ": a plan that runs. See the Farm panel.",
+                         tone::text, 6});
     const std::string exposure = exposure_text(c);
     const float right = width - guide_mark_width() - (exposure.empty() ? 0 : left + ImGui::CalcTextSize(exposure.c_str()).x);
     if (failed)

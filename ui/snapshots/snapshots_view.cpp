@@ -72,9 +72,18 @@ void SnapshotsView::remove(uint64_t id) {
     if (details == id) details = 0;
 }
 
+void SnapshotsView::replace(uint64_t older, uint64_t newer) {
+    const auto from = std::ranges::find(list, newer, &Snapshot::id), to = std::ranges::find(list, older, &Snapshot::id);
+    if (from == list.end() || to == list.end()) return;
+    *to = *from;
+    list.erase(from);
+    for (uint64_t* id : {&compare.a, &compare.b, &details})
+        if (*id == older) *id = newer;
+}
+
 void SnapshotsView::put_back() {
     if (!removed_) return;
-    const auto place = std::ranges::upper_bound(list, removed_->id, {}, &Snapshot::id);
+    const auto place = std::ranges::find_if(list, [&](const SnapshotPtr& s) { return s->id > removed_->id; });
     list.insert(place, std::exchange(removed_, nullptr));
 }
 

@@ -96,6 +96,8 @@ struct SnapshotsView {
     uint64_t add(Snapshot snapshot);
     // Removes it; ends a comparison with it. The last removed one can be restored.
     void remove(uint64_t id);
+    // The newer snapshot takes the place of the older one, which is dropped; comparison and panel follow.
+    void replace(uint64_t older, uint64_t newer);
     void put_back();
     bool can_put_back() const { return removed_ != nullptr; }
     // Toggles a comparison mode; if nothing is chosen, the newest snapshot is compared with the live image. False: there is

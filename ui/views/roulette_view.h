@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/jobs/roulette_runner.h"
+#include "ui/views/survivors_view.h"
 
 #include <memory>
 
@@ -14,6 +15,7 @@ struct RouletteView {
     bool open = false;
     Map map = Map::none;                    // what the viewport shows
     std::shared_ptr<RouletteRunner> runner; // while the panel is open
+    SurvivorsView survivors;
 };
 
 } // namespace blush

@@ -13,13 +13,14 @@ const char* title_of(FileRequest::Use use) {
     case Use::convergence: return "Load a convergence table";
     case Use::map: return "Choose an image for the material";
     case Use::save_scene: return "Save the scene as";
+    case Use::looks: return "Choose the looks for the farm";
     }
     return "";
 }
 
 const ExtensionFilter& filter_of(FileRequest::Use use) {
     using Use = FileRequest::Use;
-    static const ExtensionFilter none, openable{".gltf", ".glb", ".exr"};
+    static const ExtensionFilter none, openable{".gltf", ".glb", ".exr"}, looks{".json"};
     switch (use) {
     case Use::open: return openable;
     case Use::import_scene:
@@ -28,6 +29,7 @@ const ExtensionFilter& filter_of(FileRequest::Use use) {
     case Use::ies: return photometric_files;
     case Use::convergence: return table_files;
     case Use::map: return image_files;
+    case Use::looks: return looks;
     case Use::snapshot_folder: break;
     }
     return none;

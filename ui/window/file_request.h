@@ -9,7 +9,7 @@ namespace blush {
 
 // A file chosen by the user.
 struct FileRequest {
-    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene, map };
+    enum class Use { open, import_scene, environment, ies, snapshot_folder, convergence, save_scene, map, looks };
     Use use = Use::open;
     std::filesystem::path path;
 };

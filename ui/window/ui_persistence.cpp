@@ -77,6 +77,12 @@ void save_scene_ui(const UiState& ui, const std::string& file, WindowSettings& s
     for (const Id<Node> id : ui.also_selected) memory.selected.push_back(id.value);
     for (const SnapshotPtr& s : ui.snapshots.list)
         if (!s->file.empty() && s->scene_file == file) memory.snapshots.push_back(std::filesystem::absolute(s->file).string());
+    if (ui.farm.scene_file == file)
+        for (const FarmPlan& plan : ui.farm.plans) {
+            const auto in_strip = ui.farm.in_strip.find(plan.folder);
+            if (plan.state != FarmPlan::State::making)
+                memory.plans.push_back({plan.folder.string(), in_strip == ui.farm.in_strip.end() ? 0 : in_strip->second});
+        }
     settings.scenes.insert(settings.scenes.begin(), std::move(memory));
     if (settings.scenes.size() > remembered_files) settings.scenes.resize(remembered_files);
 }

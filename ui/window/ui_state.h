@@ -13,6 +13,7 @@
 #include "ui/views/bounces_view.h"
 #include "ui/views/convergence_view.h"
 #include "ui/views/denoise_view.h"
+#include "ui/views/farm_view.h"
 #include "ui/views/health_view.h"
 #include "ui/views/home_view.h"
 #include "ui/views/import_report_view.h"
@@ -23,6 +24,7 @@
 #include "ui/views/paths_view.h"
 #include "ui/views/presentation_view.h"
 #include "ui/views/roulette_view.h"
+#include "ui/views/sampler_view.h"
 #include "ui/views/scopes_view.h"
 #include "ui/views/strategies_view.h"
 #include "ui/views/time_view.h"
@@ -181,11 +183,13 @@ struct UiState {
     ImportReportView import_report;
     RouletteView roulette;
     StrategiesView strategies;
+    SamplerView sampler;
     SnapshotsView snapshots;
     std::shared_ptr<const Difference> difference; // of the compared images, as last computed; null: none
     ScopesView scopes;
     MetersView meters;
     PathsView paths;
+    FarmView farm;
     RegionView region;
     ConvergenceView convergence;
     std::optional<FileBrowser> browser;

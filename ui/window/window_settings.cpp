@@ -11,7 +11,7 @@ namespace blush {
 namespace {
 
 constexpr size_t max_panel_settings = 1000, max_ids = 100000, max_floating_text = 1 << 16;
-constexpr size_t max_snapshots = 64, max_bookmarks = 64, max_instruments = 64;
+constexpr size_t max_snapshots = 64, max_bookmarks = 64, max_instruments = 64, max_plans = 64;
 
 // Reads the entry if it exists with the right type and range; otherwise `value` is unchanged.
 template <class T> void read(const nlohmann::json& json, const char* key, T& value, T low, T high) {
@@ -43,6 +43,24 @@ void read_ids(const nlohmann::json& json, const char* key, std::vector<uint32_t>
         if (id.is_number_unsigned() && ids.size() < max_ids) ids.push_back(id.get<uint32_t>());
 }
 
+void read_plans(const nlohmann::json& json, std::vector<PlanMemory>& plans) {
+    const auto list = json.find("plans");
+    if (list == json.end() || !list->is_array()) return;
+    for (const auto& entry : *list) {
+        PlanMemory plan;
+        if (!entry.is_object()) continue;
+        read(entry, "folder", plan.folder);
+        read(entry, "in_strip", plan.in_strip, int64_t(0), int64_t(1) << 53);
+        if (!plan.folder.empty() && plans.size() < max_plans) plans.push_back(std::move(plan));
+    }
+}
+
+nlohmann::json plans_json(const std::vector<PlanMemory>& plans) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const PlanMemory& plan : plans) list.push_back({{"folder", plan.folder}, {"in_strip", plan.in_strip}});
+    return list;
+}
+
 SceneMemory read_scene(const nlohmann::json& json) {
     SceneMemory m;
     if (!json.is_object()) return m;
@@ -56,6 +74,7 @@ SceneMemory read_scene(const nlohmann::json& json) {
     read(json, "mix_group", m.mix_group);
     read_strings(json, "snapshots", m.snapshots, max_snapshots);
     read_strings(json, "instruments", m.instruments, max_instruments);
+    read_plans(json, m.plans);
     return m;
 }
 
@@ -110,7 +129,8 @@ nlohmann::json scenes_json(const std::vector<SceneMemory>& scenes) {
                         {"turned", m.turned},
                         {"mix_group", m.mix_group},
                         {"snapshots", m.snapshots},
-                        {"instruments", m.instruments}});
+                        {"instruments", m.instruments},
+                        {"plans", plans_json(m.plans)}});
     return list;
 }
 

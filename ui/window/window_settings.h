@@ -12,6 +12,13 @@
 
 namespace blush {
 
+// A plan of a scene (ui/views/farm_view.h).
+struct PlanMemory {
+    std::string folder;
+    int64_t in_strip = 0; // samples of the merged images that the strip has shown
+    bool operator==(const PlanMemory&) const = default;
+};
+
 // UI state of the last session with a scene file.
 struct SceneMemory {
     std::string file;
@@ -22,6 +29,7 @@ struct SceneMemory {
     std::string mix_group;                // the light mix group whose colour settings are shown
     std::vector<std::string> snapshots;   // files, oldest first
     std::vector<std::string> instruments; // ids of the open ones
+    std::vector<PlanMemory> plans;        // oldest first
     bool operator==(const SceneMemory&) const = default;
 };
 constexpr size_t remembered_files = 10;

@@ -55,8 +55,8 @@ struct Lesson {
 constexpr uint64_t max_lesson_bytes = uint64_t(1) << 20;
 constexpr size_t max_lesson_steps = 200, max_step_claims = 20, max_highlight = 100;
 // The panels and tools that a step may open, by their names in window.json.
-constexpr std::array<const char*, 11> lesson_panels{"bleed",  "bounces", "convergence", "health", "light_mix", "light_table",
-                                                    "meters", "paths",   "roulette",    "scopes", "strategies"};
+constexpr std::array<const char*, 12> lesson_panels{"bleed",  "bounces", "convergence", "health",   "light_mix", "light_table",
+                                                    "meters", "paths",   "roulette",    "samplers", "scopes",    "strategies"};
 constexpr std::array<const char*, 3> lesson_tools{"bleed", "measure", "paths"};
 
 // The steps of a text. `name`: of the file, for messages. Scene, camera and settings carry over from step to step. Errors, with

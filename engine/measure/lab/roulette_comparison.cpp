@@ -1,6 +1,7 @@
 #include "measure/lab/roulette_comparison.h"
 
 #include "core/math.h"
+#include "measure/lab/lab_settings.h"
 #include "measure/statistics/bounce_energy.h"
 #include "measure/statistics/significance.h"
 
@@ -93,17 +94,6 @@ struct Side {
     }
 };
 
-RenderSettings scaled(RenderSettings settings, int longest) {
-    const double scale = std::min(1.0, double(longest) / std::max(settings.width, settings.height));
-    settings.width = std::max(1, int(std::lround(settings.width * scale)));
-    settings.height = std::max(1, int(std::lround(settings.height * scale)));
-    settings.resolution_scale = 1;
-    settings.first_sample = 0;
-    settings.clamp = {};
-    settings.adaptive = false;
-    return settings;
-}
-
 RenderSettings without_roulette(RenderSettings settings) {
     settings.roulette.rule = Roulette::Rule::off;
     settings.max_bounces = unlimited_bounces;
@@ -164,7 +154,7 @@ RouletteComparison::~RouletteComparison() = default;
 
 void RouletteComparison::begin(const Scene& scene, const RenderSettings& settings, int longest, int spp) {
     State& s = *state_;
-    const RenderSettings small = scaled(settings, longest);
+    const RenderSettings small = lab_settings(settings, longest);
     s.scene = scene;
     s.rule.begin(s.options, small);
     s.none.begin(s.options, without_roulette(small));

@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "measure/convergence/reference.h"
+#include "measure/lab/lab_settings.h"
 #include "measure/metrics/image_error.h"
 #include "render/compile/expanded_lights.h"
 #include "render/film/found_by.h"
@@ -113,21 +114,6 @@ struct SideRender {
     }
 };
 
-RenderSettings compared_settings(RenderSettings s, int longest) {
-    const double scale = std::min(1.0, double(longest) / std::max(s.width, s.height));
-    s.width = std::max(1, int(std::lround(s.width * scale)));
-    s.height = std::max(1, int(std::lround(s.height * scale)));
-    s.resolution_scale = 1;
-    s.first_sample = 0;
-    s.region = {};
-    s.clamp = {};
-    s.adaptive = false;
-    s.smooth_edges = false;
-    s.reuse = RenderSettings{}.reuse;
-    s.caustics = CausticStrategy::off;
-    return s;
-}
-
 // By which part of MIS a strategy of the film has found light: BSDF sampling or light sampling.
 size_t part_of(FoundBy by) { return by == FoundBy::nee ? 1 : 0; }
 
@@ -232,7 +218,7 @@ StrategyComparison::~StrategyComparison() = default;
 
 void StrategyComparison::begin(const Scene& scene, const RenderSettings& settings, StrategyBudget budget, int longest) {
     State& s = *state_;
-    const RenderSettings small = compared_settings(settings, longest);
+    const RenderSettings small = plain_lab_settings(settings, longest);
     for (size_t k = 0; k < s.sides.size(); ++k) s.sides[k].begin(s.options, scene, small, compared_strategies[k]);
     s.budget = budget;
     s.part_variance = {};

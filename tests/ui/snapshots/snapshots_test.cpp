@@ -77,6 +77,26 @@ TEST(Snapshots, LastDeletedOneCanBeRestored) {
     EXPECT_EQ(v.list[1]->id, second);
 }
 
+TEST(Snapshots, NewerStatesOfAnImageTakeItsPlace) {
+    SnapshotsView v;
+    const uint64_t first = v.add(snapshot(1)), second = v.add(snapshot(2)), third = v.add(snapshot(3));
+    v.compare = {.mode = Mode::wipe, .a = first, .b = second};
+    v.details = first;
+    v.remove(third);
+    const uint64_t newer = v.add(snapshot(4));
+    v.replace(first, newer);
+    ASSERT_EQ(v.list.size(), 2u);
+    EXPECT_EQ(v.list[0]->id, newer);
+    EXPECT_EQ(v.list[1]->id, second);
+    EXPECT_EQ(v.compare.a, newer);
+    EXPECT_EQ(v.compare.b, second);
+    EXPECT_EQ(v.details, newer);
+    v.replace(first, second);
+    EXPECT_EQ(v.list.size(), 2u) << "there is no such snapshot any more";
+    v.put_back();
+    EXPECT_EQ(v.list.size(), 3u) << "it does not take the place of the deleted one";
+}
+
 TEST(SnapshotMemory, CountsBytes) {
     Snapshot s = snapshot(1, 10, 10);
     EXPECT_EQ(bytes_of(s), 100 * 4 * sizeof(float));

@@ -38,8 +38,9 @@ TEST_F(Files, SettingsRoundTrip) {
     s.snapshot_memory = 77;
     s.panels = {{"scopes", 1}, {"denoise.blend", 0.25}};
     s.floating = "[Window][Scopes]\nPos=1,2\n";
-    s.scenes = {{"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}, {"scopes"}},
-                {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}, {}}};
+    s.scenes = {
+        {"/a/b.gltf", 3, 0.25, 0.75, {7, 4711}, 12, {5, 4294967295u}, "Key", {"/a/b-0001.exr"}, {"scopes"}, {{"/a/b-plan-0001", 64}}},
+        {"/c.glb", 0, 0.5, 0.5, {}, 0, {}, "", {}, {}}};
     const auto file = folder / "deep" / "window.json";
     ASSERT_TRUE(write_window_settings(file, s));
     EXPECT_EQ(read_window_settings(file), s);
@@ -56,7 +57,7 @@ TEST_F(Files, DamagedEntryGetsItsDefaultOthersAreKept) {
         write("odd.json",
               R"({"width": "wide", "height": 1e300, "outliner": -5, "maximized": 1, "recent": [1, "ok.glb", null], "inspector": 30,
                   "panels": {"a": "b", "c": 1}, "text_size": 1000, "dock": {"right": -3, "tabs": [4, {"id": 7}, {"id": "a"}, {"id": "a", "floats": true}]},
-                  "scenes": [3, {"file": "x", "zoom": -4, "selected": [-1, "2", 5]}]})");
+                  "scenes": [3, {"file": "x", "zoom": -4, "selected": [-1, "2", 5], "plans": [3, {"folder": 4}, {"folder": "p", "in_strip": -1}]}]})");
     const WindowSettings s = read_window_settings(file), defaults;
     EXPECT_EQ(s.width, defaults.width);
     EXPECT_EQ(s.maximized, defaults.maximized);
@@ -71,6 +72,7 @@ TEST_F(Files, DamagedEntryGetsItsDefaultOthersAreKept) {
     ASSERT_EQ(s.scenes.size(), 2u);
     EXPECT_EQ(s.scenes[1].zoom, 0);
     EXPECT_EQ(s.scenes[1].selected, std::vector<uint32_t>{5});
+    EXPECT_EQ(s.scenes[1].plans, (std::vector<PlanMemory>{{"p", 0}}));
 }
 
 TEST_F(Files, WritingToAReadOnlyPlaceIsAnError) {

@@ -2,7 +2,8 @@
 #include "core/text.h"
 #include "render/integrator/estimator_settings.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/roulette_fields.h"
+#include "ui/panels/roulette/roulette_fields.h"
+#include "ui/panels/roulette/survivors.h"
 #include "ui/widgets/bars.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/tooltip.h"
@@ -144,6 +145,7 @@ void draw_roulette_panel(PanelContext& c) {
         view.map = RouletteView::Map(map);
     else if (f.changed())
         c.apply(SetRender{r}, f.gesture());
+    draw_survivors(c);
     draw_measured(c, view);
 }
 

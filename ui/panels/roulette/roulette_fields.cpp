@@ -1,4 +1,4 @@
-#include "ui/panels/roulette_fields.h"
+#include "ui/panels/roulette/roulette_fields.h"
 
 namespace blush {
 
