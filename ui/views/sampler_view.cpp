@@ -23,7 +23,7 @@ std::string sampler_gain_text(const SamplerReport& report) {
     for (size_t k = compared_sample_counts.size(); k-- > 0;) {
         const Interval& g = report.gains[k];
         if (!g.known) continue;
-        return fmt::format("At {} samples per pixel: random numbers have {:.2f} times the mean squared error ({:.2f} to {:.2f}) of Sobol "
+        return fmt::format("At {} samples per pixel: random numbers have {:.3g} times the mean squared error ({:.3g} to {:.3g}) of Sobol "
                            "points, so they need about that many times the samples.",
                            compared_sample_counts[k], g.value, g.low, g.high);
     }

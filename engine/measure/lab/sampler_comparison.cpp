@@ -54,19 +54,17 @@ struct SamplerSide {
     }
 };
 
-// 95 % interval of a mean over pairs.
-Interval interval_of(const Trials& t) {
-    if (t.count() < 2 || !(t.mean() > 0)) return {};
-    const double half = student_95(t.count() - 1) * t.error();
-    return {true, t.mean(), std::max(0.0, t.mean() - half), t.mean() + half};
+// 95 % interval of a mean over pairs, or of the ratio of two, to a power: by the delta method for the logarithm.
+Interval interval_of(double value, double relative_error, int64_t pairs, double power) {
+    constexpr int64_t least_pairs = 5; // fewer say hardly anything of their scatter
+    if (pairs < least_pairs || !(value > 0)) return {};
+    const double root = std::pow(value, power), width = std::abs(power) * student_95(pairs - 1) * relative_error;
+    return {true, root, root * std::exp(-width), root * std::exp(width)};
 }
-Interval root_of(const Interval& mse) { return {mse.known, std::sqrt(mse.value), std::sqrt(mse.low), std::sqrt(mse.high)}; }
-
-// Of independent means, by the delta method for the logarithm of their ratio.
+double relative_error(const Trials& t) { return t.mean() > 0 ? t.error() / t.mean() : 0; }
+Interval rmse_of(const Trials& mse) { return interval_of(mse.mean(), relative_error(mse), mse.count(), 0.5); }
 Interval ratio_of(const Trials& a, const Trials& b) {
-    if (a.count() < 2 || !(a.mean() > 0) || !(b.mean() > 0)) return {};
-    const double ratio = a.mean() / b.mean(), width = student_95(a.count() - 1) * std::hypot(a.error() / a.mean(), b.error() / b.mean());
-    return {true, ratio, ratio * std::exp(-width), ratio * std::exp(width)};
+    return interval_of(b.mean() > 0 ? a.mean() / b.mean() : 0, std::hypot(relative_error(a), relative_error(b)), a.count(), 1);
 }
 
 } // namespace
@@ -100,7 +98,7 @@ struct SamplerComparison::State {
 
     void report_errors() {
         for (size_t k = 0; k < stage_count; ++k) {
-            for (size_t i = 0; i < sides.size(); ++i) report.sides[i][k] = root_of(interval_of(sides[i].mse[k]));
+            for (size_t i = 0; i < sides.size(); ++i) report.sides[i][k] = rmse_of(sides[i].mse[k]);
             report.gains[k] = ratio_of(sides[0].mse[k], sides[1].mse[k]);
         }
     }

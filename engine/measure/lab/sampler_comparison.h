@@ -26,7 +26,7 @@ std::vector<SamplePoint> sample_points(SamplerType sampler, int x, int y, uint32
 // What the path tracer uses these two numbers for: "pixel filter", "light, bounce 0".
 std::string sampler_dimension_name(uint32_t dimension);
 
-// Root of the mean squared error of the pixels' luminance, nits, for compared_sample_counts; not known before two pairs of images.
+// Root of the mean squared error of the pixels' luminance, nits, for compared_sample_counts; not known before five pairs of images.
 using SamplerErrors = std::array<Interval, compared_sample_counts.size()>;
 
 struct SamplerReport {

@@ -40,7 +40,10 @@ TEST(SamplePoints, DimensionsAreThoseOfThePathTracer) {
 TEST(SamplerComparison, RandomNumbersFollowTheLawOfLargeNumbers) {
     SamplerComparison lab({.threads = 2, .planes = {}});
     lab.begin(test::shipped_scene("cornell"), {.width = 24, .height = 24});
-    for (int i = 0; i < 12; ++i) ASSERT_TRUE(lab.round());
+    for (int i = 0; i < 12; ++i) {
+        ASSERT_TRUE(lab.round());
+        EXPECT_EQ(lab.report().gains[0].known, i >= 4) << "fewer than five pairs say hardly anything of their scatter";
+    }
     const SamplerReport& r = lab.report();
     EXPECT_EQ(r.pairs, 12);
     const SamplerErrors &random = r.sides[0], &sobol = r.sides[1];
