@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -150,6 +151,9 @@ INSTANTIATE_TEST_SUITE_P(Stability, Battery, testing::ValuesIn(group_names()), [
 struct DocumentedLimit {
     const char* name;
     double measured;
+    // Where the rounding of Embree's traversal decides: the value with its code for AVX2, the first one being that for AVX-512. All
+    // kernels of Blush give the same.
+    std::optional<double> measured_on_avx2 = {};
 };
 constexpr DocumentedLimit documented_limits[] = {
     {"white smooth dielectric in a furnace, seen at 75 degrees", 1.2027},
@@ -159,9 +163,9 @@ constexpr DocumentedLimit documented_limits[] = {
     {"absorbing sheet 1e-7 as thick as wide", 1},
     {"coarse ball with shading normals, half lit", 0.105716},
     {"two coincident lights", 0.4390},
-    {"dark room at the edge of a wide world", 0.023614707467132234},
+    {"dark room at the edge of a wide world", 0.023614707467132234, 0.023566923148172866},
     {"closed ball of radius 1e-10 m", 1024},
-    {"closed ball of radius 1e12 m", 517},
+    {"closed ball of radius 1e12 m", 517, 519},
     {"camera 0.3 m beside the metres at 1e7 m", 0.6501},
     {"floor under solid glass and a parallel sun", 0},
     {"back of a surface that is not double-sided", 0},
@@ -177,8 +181,10 @@ TEST(KnownLimits, AreAsDocumented) {
         EXPECT_TRUE(r.error.empty()) << r.name << ": " << r.error;
         const auto documented = std::ranges::find(documented_limits, std::string_view(r.name), &DocumentedLimit::name);
         ASSERT_NE(documented, std::end(documented_limits)) << r.name << " is not documented";
+        const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+        const double measured = avx512 ? documented->measured : documented->measured_on_avx2.value_or(documented->measured);
         // Five standard errors of the measurement, and the last digit that is documented.
-        EXPECT_NEAR(r.finding.measured, documented->measured, 5 * r.finding.sigma + 1e-4 * std::abs(documented->measured)) << r.name;
+        EXPECT_NEAR(r.finding.measured, measured, 5 * r.finding.sigma + 1e-4 * std::abs(measured)) << r.name;
     }
 }
 
