@@ -75,9 +75,7 @@ TEST_F(PlanState, SaysWhyAPlanHasStopped) {
     const std::string copy = scene_copy(folder, "cornell");
     plan.scene = copy;
     plan.make();
-    nlohmann::json changed = json_of(copy);
-    changed["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
-    write_text(copy, changed.dump());
+    change_scene(copy);
     ASSERT_TRUE(start_farm_plan(plan.folder, {}));
     ASSERT_TRUE(eventually([&] { return read().state == State::stopped && !read().failures.empty(); }));
     const FarmPlan read = this->read();

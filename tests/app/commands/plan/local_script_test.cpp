@@ -79,9 +79,7 @@ TEST_F(LocalScript, EndsIfTasksFail) {
     const std::string copy = scene_copy(folder, "cornell");
     plan.scene = copy;
     plan.make();
-    nlohmann::json changed = json_of(copy);
-    changed["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
-    write_text(copy, changed.dump());
+    change_scene(copy);
     const Finished finished = run({script()});
     EXPECT_EQ(finished.exit_code, 1);
     EXPECT_NE(finished.err.find("the last round has rendered nothing"), std::string::npos) << finished.err;

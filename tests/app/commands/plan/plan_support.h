@@ -124,6 +124,13 @@ inline void expect_same_pixels(const std::string& file, const std::string& expec
     }
 }
 
+// Another colour for a material of this scene: its hash is another one.
+inline void change_scene(const std::string& file) {
+    nlohmann::json changed = json_of(file);
+    changed["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
+    write_text(file, changed.dump());
+}
+
 // A plan of a small image in a folder of its own.
 struct SmallPlan {
     std::string scene, folder;

@@ -104,9 +104,7 @@ TEST(PlanTasks, RefuseAnotherSceneAndVersion) {
     const SmallPlan plan{.scene = test::scene_copy(folder, "cornell"), .folder = folder / "plan"};
     plan.make();
     const std::string scene = test::text_of(plan.scene);
-    nlohmann::json changed = nlohmann::json::parse(scene);
-    changed["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
-    test::write_text(plan.scene, changed.dump());
+    test::change_scene(plan.scene);
     expect_refused(plan.run(1), "cornell.gltf: is not the scene of the plan");
     EXPECT_NE(plan.status()["failed"][0]["line"].get<std::string>().find("is not the scene"), std::string::npos);
     test::write_text(plan.scene, scene);
