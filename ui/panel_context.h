@@ -31,6 +31,7 @@ struct PanelContext {
     float metered_ev = 0;                                                    // result of auto exposure for the frame; 0 if it is off
     WaveformTextures waveforms = {};                                         // of the scopes
     ImTextureID strategies = {};                                             // images of the Strategies panel; 0: none
+    ImTextureID integrators = {};                                            // images of the Integrators panel; 0: none
     std::function<ImTextureID(const std::string& file)> file_thumbnail = {}; // returns a texture; 0: no thumbnail
 
     // The view settings, with auto exposure applied.

@@ -273,6 +273,7 @@ void Editor::draw_regions(PanelContext& c) {
     waveforms_.update(ui_.scopes);
     c.waveforms = waveforms_.textures();
     c.strategies = display_.strategies(ui_, c.shown_view());
+    c.integrators = display_.integrators(ui_, c.shown_view());
     c.file_thumbnail = [this](const std::string& file) { return opening_page_.thumbnail(file); };
     const Layout l = layout_ = window_layout(c, screen.x, screen.y);
     ImGui::BeginDisabled(files_.preview() != nullptr); // edits would be lost when the scene replaces the document

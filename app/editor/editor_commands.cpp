@@ -306,6 +306,7 @@ constexpr CommandAction command_actions[] = {
     {Command::scopes, [](PanelContext& c) { toggle_instrument(c, "scopes"); }},
     {Command::roulette, [](PanelContext& c) { toggle_instrument(c, "roulette"); }},
     {Command::strategies, [](PanelContext& c) { toggle_instrument(c, "strategies"); }},
+    {Command::integrators, [](PanelContext& c) { toggle_instrument(c, "integrators"); }},
     {Command::samplers, [](PanelContext& c) { toggle_instrument(c, "samplers"); }},
     {Command::convergence, [](PanelContext& c) { toggle_instrument(c, "convergence"); }},
 };

@@ -17,6 +17,7 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
     if (!shader) return toasts.fail(shader.error().text());
     thumbnails.set_shader(*shader);
     strategies_.set_shader(*shader);
+    integrators_.set_shader(*shader);
     if (const auto set = viewport.set_display_shader(*shader); !set) toasts.fail(set.error().text());
     int64_t bytes = 0;
     for (const DisplayShader::Lut& lut : shader->luts) bytes += int64_t(lut.values.size() * sizeof(float));
@@ -27,8 +28,40 @@ void EditorDisplay::update_shader(const ViewSettings& view, const FramePtr& fram
 }
 
 ImTextureID EditorDisplay::strategies(UiState& ui, const ViewSettings& view) {
-    if (!strategies_.update(ui.strategies, display_parameters_of(view))) ui.seconds_to_next_frame = 0;
+    const StrategiesView& v = ui.strategies;
+    const auto& report = v.state.output;
+    if (!v.open || !report) {
+        strategies_.clear();
+        return {};
+    }
+    const SheetSource source{report, int(v.show)};
+    if (v.show != StrategiesView::Show::image) {
+        strategies_.show_texels(source, report->width, [&] { return strategy_texels(*report, v.show); });
+        return strategies_.texture();
+    }
+    const auto images = [&] {
+        return std::vector<std::span<const Vec3>>{report->sides[0].image, report->sides[1].image, report->mis().image};
+    };
+    if (!strategies_.show_images(source, report->width, report->height, images, display_parameters_of(view))) ui.seconds_to_next_frame = 0;
     return strategies_.texture();
+}
+
+ImTextureID EditorDisplay::integrators(UiState& ui, const ViewSettings& view) {
+    const IntegratorsView& v = ui.integrators;
+    const auto& report = v.state.output;
+    if (!v.open || !report) {
+        integrators_.clear();
+        return {};
+    }
+    const bool difference = v.show == IntegratorsView::Show::difference;
+    const SheetSource source{report, int(difference)};
+    if (difference) {
+        integrators_.show_texels(source, report->width, [&] { return difference_texels(*report); });
+        return integrators_.texture();
+    }
+    const auto images = [&] { return std::vector<std::span<const Vec3>>{report->path.image, report->biased.image}; };
+    if (!integrators_.show_images(source, report->width, report->height, images, display_parameters_of(view))) ui.seconds_to_next_frame = 0;
+    return integrators_.texture();
 }
 
 void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {

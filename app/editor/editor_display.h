@@ -5,7 +5,7 @@
 #include "render/session/render_session.h"
 #include "ui/snapshots/snapshot_strip.h"
 #include "ui/viewport/viewport.h"
-#include "ui/widgets/strategy_sheet.h"
+#include "ui/widgets/image_sheet.h"
 #include "ui/window/toasts.h"
 
 #include <array>
@@ -17,10 +17,12 @@ class EditorDisplay {
 public:
     EditorDisplay(const ColorManagement& color, std::filesystem::path weights) : color_(color), weights_(std::move(weights)) {}
 
-    // Updates the shader of viewport, strip and strategies if the view transform has changed. No shader before the first frame.
+    // Updates the shader of viewport, strip and the sheets of panels if the view transform has changed. No shader before the first frame.
     void update_shader(const ViewSettings& view, const FramePtr& frame, Viewport& viewport, ThumbnailSheet& thumbnails, Toasts& toasts);
-    // The images of the Strategies panel as a texture; requests another frame while they are not finished.
+    // What the Strategies and the Integrators panel compare as textures, 0: nothing; they request another frame while images are not
+    // finished.
     ImTextureID strategies(UiState& ui, const ViewSettings& view);
+    ImTextureID integrators(UiState& ui, const ViewSettings& view);
     // Meters the frame if auto exposure is on.
     void meter(AutoExposure rule, const FramePtr& frame);
     void update_feature_report(const SessionStatus& status);
@@ -33,7 +35,7 @@ private:
     std::filesystem::path weights_;
     DisplayTransform transform_; // of the current shader
     bool shader_ready_ = false;
-    StrategySheet strategies_;
+    ImageSheet strategies_, integrators_;
     FramePtr metered_;
     AutoExposure metered_by_ = AutoExposure::off;
     float metered_ev_ = 0;

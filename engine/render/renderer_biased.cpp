@@ -1,21 +1,25 @@
-// Biased integrators in the place of path tracing.
+// Integrators for comparison in the place of path tracing.
 #include "render/integrator/kernel_settings.h"
 #include "render/renderer_state.h"
+
+#include <algorithm>
 
 namespace blush {
 
 RenderSettings Renderer::State::kernel_settings_for(const RenderSettings& asked) const {
     RenderSettings settings = effective_settings(asked);
-    if (!indirect) return settings;
-    settings.max_bounces = asked.max_bounces == 0 ? 0 : 1;
+    if (!replacement) return settings;
+    const int traced = replacement->traced_bounces();
+    settings.max_bounces = asked.max_bounces == unlimited_bounces ? traced : std::min(asked.max_bounces, traced);
     settings.reuse = 1;
     settings.caustics = CausticStrategy::off;
     settings.smooth_edges = false;
     settings.clamp = {};
+    settings.mis_compensation = false; // photons and probes need all of the environment's light
     return settings;
 }
 
-KernelContext Renderer::State::indirect_context() const {
+KernelContext Renderer::State::replacement_context() const {
     KernelContext context = context_for(scene.tables(), film.width(), film.height());
     RenderSettings whole = settings;
     whole.max_bounces = max_bounces;
@@ -27,17 +31,21 @@ KernelContext Renderer::State::indirect_context() const {
     return context;
 }
 
-bool Renderer::State::prepare_indirect(const Wanted& wanted) {
-    if (!indirect || indirect_is_ready) return true;
-    const CasterSphere bounds = scene.bounding_sphere();
-    indirect_is_ready = indirect->prepare({indirect_context(), workers, replays, wanted, bounds});
-    return indirect_is_ready;
+bool Renderer::State::prepare_replacement(const Wanted& wanted) {
+    if (!replacement || replacement_is_ready) return true;
+    replacement_is_ready = replacement->prepare({replacement_context(), workers, replays, wanted, scene.bounding_sphere()});
+    return replacement_is_ready;
 }
 
-void Renderer::State::add_indirect(const TileJob& job, TileScratch& tile, unsigned worker) {
-    if (max_bounces == 0 || max_bounces == 1) return;
+bool Renderer::State::prepare_replacement_for(int64_t sample, const Wanted& wanted) {
+    if (!replacement || !replacement->prepares_samples()) return true;
+    return replacement->prepare_sample(sample, {replacement_context(), workers, replays, wanted, scene.bounding_sphere()});
+}
+
+void Renderer::State::add_replacement(const TileJob& job, TileScratch& tile, unsigned worker) {
+    if (max_bounces != unlimited_bounces && max_bounces <= replacement->traced_bounces()) return;
     if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
-    add_indirect_light(indirect_context(), *indirect, job, tile, *replays[worker]);
+    replacement->add(replacement_context(), job, tile, *replays[worker]);
 }
 
 } // namespace blush

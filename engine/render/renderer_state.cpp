@@ -84,12 +84,12 @@ void Renderer::State::begin_learning(const FieldEffect& effect, bool same_photon
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
     State& s = *state_;
     const RenderSettings settings = s.kernel_settings_for(asked);
-    const bool other_indirect = s.indirect && std::exchange(s.max_bounces, asked.max_bounces) != asked.max_bounces;
+    const bool other_bounces = s.replacement && std::exchange(s.max_bounces, asked.max_bounces) != asked.max_bounces;
     const auto begun = State::Clock::now();
     if (s.apply_mix(scene, settings)) return false;
     const bool mixed = scene.mix.grouping != LightMix::Grouping::none;
     auto outdated = s.compile(scene, settings, mixed ? std::make_shared<const LightGroups>(make_light_groups(scene)) : nullptr);
-    if (other_indirect) outdated = State::Outdated::film;
+    if (other_bounces) outdated = State::Outdated::film;
     if (outdated != State::Outdated::nothing) s.begin_film(begun, outdated);
     return outdated != State::Outdated::nothing;
 }

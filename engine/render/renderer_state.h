@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/ticks.h"
-#include "render/biased/make_indirect_light.h"
+#include "render/biased/make_integrator.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/error/small_highlights.h"
@@ -49,11 +49,11 @@ struct Renderer::State {
     Film film;
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
-    ReuseChoice reuse;                       // of the scene and settings
-    EdgeChoice edges;                        // likewise, as the next
-    std::unique_ptr<IndirectLight> indirect; // of a biased integrator; null: path tracing
-    bool indirect_is_ready = false;
-    int max_bounces = unlimited_bounces; // as asked for; those of `settings` are one for a biased integrator
+    ReuseChoice reuse;                            // of the scene and settings
+    EdgeChoice edges;                             // likewise, as the next
+    std::unique_ptr<PathReplacement> replacement; // of an integrator for comparison; null: path tracing
+    bool replacement_is_ready = false;
+    int max_bounces = unlimited_bounces; // as asked for; those of `settings` are fewer for an integrator for comparison
     LearnedSampling learned;
     std::optional<SmallHighlights> highlights;         // of the scene and settings; empty: not searched for
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
@@ -78,7 +78,7 @@ struct Renderer::State {
 
     explicit State(const RendererOptions& o)
         : options(o), workers(o.threads, o.low_priority), scratch(workers.threads()), replays(workers.threads()),
-          catching(workers.threads()), at_edges(workers.threads()), indirect(make_indirect_light(o.integrator)) {}
+          catching(workers.threads()), at_edges(workers.threads()), replacement(make_integrator(o.integrator)) {}
 
     int film_width() const { return std::max(1, settings.width / divider); }
     int film_height() const { return std::max(1, settings.height / divider); }
@@ -142,7 +142,7 @@ struct Renderer::State {
 
     void clear() {
         film_is_stale = true;
-        film_is_uneven = indirect_is_ready = false;
+        film_is_uneven = replacement_is_ready = false;
         first_is_rough = first_as_others = first_is_trained = false;
         feature_report.reset();
         samples = loaded_first = 0;
@@ -190,12 +190,13 @@ struct Renderer::State {
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
     bool decide(const Wanted& wanted);
-    // Settings of the kernels: a biased integrator takes direct light alone from them.
+    // Settings of the kernels: an integrator for comparison takes direct light or emission alone from them.
     RenderSettings kernel_settings_for(const RenderSettings& asked) const;
     // With all bounces.
-    KernelContext indirect_context() const;
-    bool prepare_indirect(const Wanted& wanted);
-    void add_indirect(const TileJob& job, TileScratch& tile, unsigned worker);
+    KernelContext replacement_context() const;
+    bool prepare_replacement(const Wanted& wanted);
+    bool prepare_replacement_for(int64_t sample, const Wanted& wanted);
+    void add_replacement(const TileJob& job, TileScratch& tile, unsigned worker);
     bool needs_highlights() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     void collect_counts(const TickRate& rate);

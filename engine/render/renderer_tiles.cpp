@@ -38,7 +38,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, u
         job.first_sample = run.first + done * run.stride;
         job.samples = int(std::min<int64_t>(max_samples, run.count - done));
         kernel_for(tables).render(context, job, tile);
-        if (indirect) add_indirect(job, tile, worker);
+        if (replacement) add_replacement(job, tile, worker);
         if (pixels) refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
         StageTimer timer(tile.stages);
         const CatcherColumns* shadows = shadows_of(context, job, worker);
@@ -211,7 +211,7 @@ bool Renderer::decide(const std::function<bool()>& wanted) { return state_->deci
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
-    if (!s.prepare_indirect(wanted)) return false;
+    if (!s.prepare_replacement(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
     if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
         if (!s.decide(wanted)) return false;
@@ -228,6 +228,8 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         // Ends where the pilot of adaptive sampling is measured, and where what the pilots decided begins.
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
         if (next == 0 && s.first_differs()) step = 1;
+        if (s.replacement && s.replacement->prepares_samples()) step = 1;
+        if (!s.prepare_replacement_for(next, wanted)) return !(s.film_is_uneven = true);
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
         const bool planned = s.settings.adaptive && next >= SampleAllocation::pilot_samples && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||

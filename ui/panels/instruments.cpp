@@ -40,6 +40,13 @@ void open_strategies(PanelContext& c, bool open) {
     c.ui.strategies.state = {};
 }
 
+void open_integrators(PanelContext& c, bool open) {
+    c.ui.integrators.open = open;
+    if (open) return;
+    c.ui.integrators.runner.reset(); // it renders as long as the panel is open
+    c.ui.integrators.state = {};
+}
+
 void open_sampler(PanelContext& c, bool open) {
     c.ui.sampler.open = open;
     if (open) return;
@@ -72,6 +79,8 @@ const Instrument table[] = {
      open_roulette, draw_roulette_panel},
     {"strategies", "Strategies", guide_page::strategies, bottom, 60, 26, true, [](const PanelContext& c) { return c.ui.strategies.open; },
      open_strategies, draw_strategies_panel},
+    {"integrators", "Integrators", guide_page::integrators, bottom, 60, 26, true,
+     [](const PanelContext& c) { return c.ui.integrators.open; }, open_integrators, draw_integrators_panel},
     {"samplers", "Samplers", guide_page::samplers, right, 28, 48, true, [](const PanelContext& c) { return c.ui.sampler.open; },
      open_sampler, draw_sampler_panel},
     by_flag<[](auto& ui) { return &ui.health.open; }>("health", "Health", guide_page::lab, right, 34, 34, draw_health_panel),

@@ -201,6 +201,7 @@ void draw_view_menu(PanelContext& c) {
     item(c, Command::convergence, true, nullptr, c.ui.convergence.open);
     item(c, Command::roulette, true, nullptr, c.ui.roulette.open);
     item(c, Command::strategies, true, nullptr, c.ui.strategies.open);
+    item(c, Command::integrators, true, nullptr, c.ui.integrators.open);
     item(c, Command::samplers, true, nullptr, c.ui.sampler.open);
     item(c, Command::health, true, nullptr, c.ui.health.open);
 }

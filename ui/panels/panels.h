@@ -59,6 +59,8 @@ void draw_roulette_panel(PanelContext& c);
 void draw_roulette_report(PanelContext& c, const RouletteReport& report); // the lower part of that panel: the measurements
 void draw_sampler_panel(PanelContext& c);
 void draw_sampler_report(PanelContext& c, const SamplerReport& report); // the lower part of that panel: the measurements
+void draw_integrators_panel(PanelContext& c);
+void draw_integrator_report(PanelContext& c, const IntegratorReport* report); // that panel without its job; null: no round yet
 void draw_strategies_panel(PanelContext& c);
 void draw_strategy_report(PanelContext& c, const StrategyReport* report); // that panel without its job; null: no round yet
 void draw_light_table(PanelContext& c);

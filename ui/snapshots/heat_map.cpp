@@ -1,8 +1,10 @@
 #include "ui/snapshots/heat_map.h"
 
 #include "core/math.h"
+#include "core/srgb.h"
 
 #include <algorithm>
+#include <imgui.h>
 #include <iterator>
 
 namespace blush {
@@ -13,6 +15,11 @@ Vec3 heat_map_color(float t) {
     const float at = clamp01(t) * last;
     const int i = std::min(int(at), last - 1);
     return lerp<float>(stops[i], stops[i + 1], at - float(i));
+}
+
+uint32_t map_texel(const Vec3& linear) {
+    const auto encoded = [](float v) { return int(255 * srgb_from_linear(clamp01(v)) + 0.5f); };
+    return uint32_t(IM_COL32(encoded(linear.x), encoded(linear.y), encoded(linear.z), 255));
 }
 
 } // namespace blush

@@ -25,14 +25,16 @@ constexpr const char* convergence = "guide/convergence.html";
 constexpr const char* chart = "guide/convergence.html#the-chart";
 constexpr const char* lab = "guide/convergence.html#roulette-lab-and-health";
 constexpr const char* strategies = "guide/strategies.html";
+constexpr const char* integrators = "guide/integrators.html";
 constexpr const char* samplers = "guide/convergence.html#samplers";
 constexpr const char* paths = "guide/paths.html";
 constexpr const char* farm = "guide/farm.html#in-the-window";
 constexpr const char* snapshots = "guide/snapshots.html#keep";
 constexpr const char* comparison = "guide/snapshots.html#compare";
 
-constexpr const char* all[] = {first_steps, own_file,    timeline,  outliner,   viewport,  status_bar, file_browser, docks,     light_kinds,
-                               light_units, light_table, light_mix, bleed,      materials, display,    camera,       measuring, convergence,
-                               chart,       lab,         snapshots, comparison, paths,     lessons,    strategies,   farm,      samplers};
+constexpr const char* all[] = {first_steps, own_file,    timeline,    outliner,    viewport,  status_bar, file_browser,
+                               docks,       light_kinds, light_units, light_table, light_mix, bleed,      materials,
+                               display,     camera,      measuring,   convergence, chart,     lab,        snapshots,
+                               comparison,  paths,       lessons,     strategies,  farm,      samplers,   integrators};
 
 } // namespace blush::guide_page

@@ -80,6 +80,7 @@ constexpr Shortcut table[] = {
     {Command::health, "View", "Health", in_menu_only},
     {Command::roulette, "View", "Roulette lab", in_menu_only},
     {Command::strategies, "View", "Strategies", in_menu_only},
+    {Command::integrators, "View", "Integrators", in_menu_only},
     {Command::samplers, "View", "Samplers", in_menu_only},
     {Command::convergence, "View", "Convergence", plain('C')},
     {Command::snapshot_strip, "Look", "Snapshots", plain('K')},

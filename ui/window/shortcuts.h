@@ -103,6 +103,7 @@ enum class Command {
     health,
     roulette,
     strategies,
+    integrators,
     samplers,
     measure,
     meters,

@@ -17,16 +17,17 @@
 #include "ui/views/health_view.h"
 #include "ui/views/home_view.h"
 #include "ui/views/import_report_view.h"
+#include "ui/views/lab/integrators_view.h"
+#include "ui/views/lab/roulette_view.h"
+#include "ui/views/lab/sampler_view.h"
+#include "ui/views/lab/strategies_view.h"
 #include "ui/views/lesson_view.h"
 #include "ui/views/light_mix_view.h"
 #include "ui/views/map_view.h"
 #include "ui/views/meters_view.h"
 #include "ui/views/paths_view.h"
 #include "ui/views/presentation_view.h"
-#include "ui/views/roulette_view.h"
-#include "ui/views/sampler_view.h"
 #include "ui/views/scopes_view.h"
-#include "ui/views/strategies_view.h"
 #include "ui/views/time_view.h"
 #include "ui/widgets/value_editing.h"
 #include "ui/window/dock.h"
@@ -183,6 +184,7 @@ struct UiState {
     ImportReportView import_report;
     RouletteView roulette;
     StrategiesView strategies;
+    IntegratorsView integrators;
     SamplerView sampler;
     SnapshotsView snapshots;
     std::shared_ptr<const Difference> difference; // of the compared images, as last computed; null: none

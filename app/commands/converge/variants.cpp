@@ -31,7 +31,8 @@ constexpr const char* tricks[]{"path tracing: --integrator path",
                                "irradiance cache: --integrator irradiance-cache",
                                "light probes: --integrator light-probes",
                                "photon map: --integrator photon-map",
-                               "photon map, final gather: --integrator photon-map,photons=200000,gather=4"};
+                               "photon map, final gather: --integrator photon-map,photons=200000,gather=4",
+                               "progressive photon mapping: --integrator progressive-photon-map"};
 
 struct Preset {
     const char* name;

@@ -101,7 +101,7 @@ MeasuredClaim by_pairs(const LessonStep& step, const Project& state, const Lesso
     RenderSettings other = changed->settings;
     other.width = state.render.width;
     other.height = state.render.height;
-    Renderer renderer({.threads = threads}), other_renderer({.threads = threads});
+    Renderer renderer({.threads = threads}), other_renderer({.threads = threads, .integrator = changed->integrator});
     std::vector<double> x, y;
     for (uint32_t k = 0; k < most_pairs; ++k) {
         const std::optional<Pair> own = render_pair(renderer, state.scene, state.render, 2 * k, wanted);

@@ -55,8 +55,9 @@ struct Lesson {
 constexpr uint64_t max_lesson_bytes = uint64_t(1) << 20;
 constexpr size_t max_lesson_steps = 200, max_step_claims = 20, max_highlight = 100;
 // The panels and tools that a step may open, by their names in window.json.
-constexpr std::array<const char*, 12> lesson_panels{"bleed",  "bounces", "convergence", "health",   "light_mix", "light_table",
-                                                    "meters", "paths",   "roulette",    "samplers", "scopes",    "strategies"};
+constexpr std::array<const char*, 13> lesson_panels{"bleed",     "bounces",     "convergence", "health", "integrators",
+                                                    "light_mix", "light_table", "meters",      "paths",  "roulette",
+                                                    "samplers",  "scopes",      "strategies"};
 constexpr std::array<const char*, 3> lesson_tools{"bleed", "measure", "paths"};
 
 // The steps of a text. `name`: of the file, for messages. Scene, camera and settings carry over from step to step. Errors, with
@@ -67,7 +68,8 @@ Result<Lesson> parse_lesson(std::string_view text, const std::string& name);
 // Errors: as of parse_lesson(); unreadable or larger than max_lesson_bytes; a scene that is missing or outside of both folders.
 Result<Lesson> read_lesson(const std::filesystem::path& file, const std::filesystem::path& scenes);
 
-// The options of `blush render` for a step, or with one setting changed. Errors: as of options_of().
+// The options of `blush render` for a step, or with one setting changed, which may be the integrator. Errors: as of options_of() and
+// parse_integrator().
 Result<RenderOptions> options_of_step(const LessonStep& step);
 Result<RenderOptions> options_with(const LessonStep& step, const std::string& setting, const std::string& value);
 

@@ -137,7 +137,7 @@ std::string loop_note(const LoopProgress& p) {
 // "irradiance-cache,a=0.2,rays=256: biased, ..."; empty for path tracing.
 std::string biased_text(const BiasedIntegrator& integrator) {
     if (integrator.kind == BiasedIntegrator::Kind::none) return {};
-    return fmt::format("{}: biased, {}", to_string(integrator), bias_of(integrator.kind));
+    return fmt::format("{}: {}, {}", to_string(integrator), verdict_of(integrator.kind), bias_of(integrator.kind));
 }
 
 SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const Rendered& rendered) {

@@ -3,33 +3,22 @@
 #include "core/math.h"
 #include "measure/convergence/reference.h"
 #include "measure/lab/lab_settings.h"
+#include "measure/lab/timed_render.h"
 #include "measure/metrics/image_error.h"
 #include "render/compile/expanded_lights.h"
 #include "render/film/found_by.h"
 #include "render/lights/missing_light.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 
 namespace blush {
 namespace {
 
-using Wanted = std::function<bool()>;
+using Wanted = TimedRender::Wanted;
 using Kind = ConvergencePoint::Kind;
 
-constexpr int64_t least_samples = 2;  // both half buffers need one for an error
-constexpr int64_t most_at_once = 256; // samples between two looks at the clock
-
 double luminance_of(const Vec3& v) { return luminance(Vec3d{double(v.x), double(v.y), double(v.z)}); }
-
-// Processor time of this thread leaves out what other threads of a busy machine take from it.
-double seconds_now(bool single_thread) {
-    timespec t{};
-    if (single_thread && clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) == 0) return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Variance of one sample of each pixel, from the scatter of the means of rounds: for rounds of n_r samples with means x_r, the sum of
 // n_r (x_r - mean)^2 / (rounds - 1) has the variance of one sample as its mean, if samples are independent.
@@ -69,48 +58,17 @@ std::vector<double> luminances(const std::vector<Vec3>& plane) {
 }
 
 struct SideRender {
-    std::unique_ptr<Renderer> renderer;
+    TimedRender timed;
     Frame frame; // after the last round
-    int64_t samples = 0;
-    double seconds = 0;
     RoundVariance variance;
 
     void begin(const RendererOptions& options, const Scene& scene, RenderSettings settings, Strategy strategy) {
-        if (!renderer) {
-            RendererOptions own = options;
-            own.planes = {.strategies = strategy == Strategy::mis};
-            renderer = std::make_unique<Renderer>(own);
-        }
+        RendererOptions own = options;
+        own.planes = {.strategies = strategy == Strategy::mis};
         settings.strategy = strategy;
         settings.seed += uint32_t(strategy); // independent samples: see StrategySide::record
-        renderer->update(scene, settings);
-        renderer->clear();
-        samples = 0;
-        seconds = 0;
+        timed.begin(own, scene, settings);
         variance = {};
-    }
-    bool render(int64_t count, bool single_thread, const Wanted& wanted) {
-        const double begin = seconds_now(single_thread);
-        if (!renderer->render(samples, count, wanted)) return false;
-        seconds += seconds_now(single_thread) - begin;
-        samples += count;
-        return true;
-    }
-    bool render_until(double goal, bool single_thread, const Wanted& wanted) {
-        while (samples < least_samples || seconds < goal) {
-            // Half of what fits, and one sample at last: the time exceeds the goal by less than that of one, even if the next samples are
-            // slower than those before.
-            const double left = samples > 0 && seconds > 0 ? (goal - seconds) / seconds * double(samples) / 2 : 0;
-            const int64_t least = samples < least_samples ? least_samples - samples : 1;
-            if (!render(std::clamp(int64_t(left), least, most_at_once), single_thread, wanted)) return false;
-        }
-        return true;
-    }
-    std::vector<Vec3> image() const {
-        std::vector<Vec3> rgb;
-        rgb.reserve(frame.rgba.size() / 4);
-        for (size_t i = 0; i + 3 < frame.rgba.size(); i += 4) rgb.push_back({frame.rgba[i], frame.rgba[i + 1], frame.rgba[i + 2]});
-        return rgb;
     }
 };
 
@@ -121,7 +79,6 @@ size_t part_of(FoundBy by) { return by == FoundBy::nee ? 1 : 0; }
 
 struct StrategyComparison::State {
     RendererOptions options;
-    bool single_thread = false;
     StrategyBudget budget = StrategyBudget::time;
     std::array<SideRender, 3> sides;
     std::array<RoundVariance, 2> part_variance;
@@ -130,15 +87,15 @@ struct StrategyComparison::State {
     // No side may be behind one that has had a slow sample.
     double goal() const {
         double most = double(report.rounds + 1) * strategy_round_seconds;
-        for (const SideRender& side : sides) most = std::max(most, side.seconds);
+        for (const SideRender& side : sides) most = std::max(most, side.timed.seconds());
         return most;
     }
     bool render(const Wanted& wanted) {
         const double until = goal();
         for (size_t turn = 0; turn < sides.size(); ++turn) {
             SideRender& side = sides[(turn + size_t(report.rounds)) % sides.size()];
-            const bool done = budget == StrategyBudget::time ? side.render_until(until, single_thread, wanted)
-                                                             : side.render(strategy_round_samples, single_thread, wanted);
+            const bool done =
+                budget == StrategyBudget::time ? side.timed.render_until(until, wanted) : side.timed.render(strategy_round_samples, wanted);
             if (!done) return false;
         }
         return true;
@@ -147,13 +104,13 @@ struct StrategyComparison::State {
     void report_side(size_t k) {
         SideRender& side = sides[k];
         StrategySide& shown = report.sides[k];
-        if (side.samples == shown.samples) return;
-        side.renderer->resolve(side.frame);
-        shown.samples = side.samples;
-        shown.seconds = side.seconds;
+        if (side.timed.samples() == shown.samples) return;
+        side.timed.renderer().resolve(side.frame);
+        shown.samples = side.timed.samples();
+        shown.seconds = side.timed.seconds();
         shown.dropped = side.frame.health.dropped();
-        shown.image = side.image();
-        side.variance.add(luminances(shown.image), side.samples);
+        shown.image = rgb_of(side.frame);
+        side.variance.add(luminances(shown.image), shown.samples);
         shown.variance = side.variance.variance();
     }
 
@@ -177,31 +134,31 @@ struct StrategyComparison::State {
         }
         for (size_t k = 0; k < 2; ++k) {
             report.parts[k].share = whole > 0 ? own[k] / whole : 0;
-            part_variance[k].add(light[k], sides[2].samples);
+            part_variance[k].add(light[k], sides[2].timed.samples());
             report.parts[k].variance = part_variance[k].variance();
         }
     }
 
     void report_errors() {
         const auto due = [&](size_t k) {
-            return report.sides[k].record.is_due(k == 2 ? Kind::estimated : Kind::measured, sides[k].samples);
+            return report.sides[k].record.is_due(k == 2 ? Kind::estimated : Kind::measured, sides[k].timed.samples());
         };
         if (!due(0) && !due(1) && !due(2)) return;
         if (due(2)) {
-            ConvergencePoint p = estimated_point(sides[2].renderer->resolve());
-            p.seconds = sides[2].seconds;
-            p.spp = sides[2].samples;
+            ConvergencePoint p = estimated_point(sides[2].timed.renderer().resolve());
+            p.seconds = sides[2].timed.seconds();
+            p.spp = sides[2].timed.samples();
             // Without noise nothing says whether light is missing: a black image is the usual case.
             p.rmse.known = p.rmse.known && p.rmse.value > 0;
             p.relmse.known = p.relmse.known && p.relmse.value > 0;
             report.sides[2].record.add(p);
         }
-        const MeasuredImage reference = measured_image(*sides[2].renderer);
+        const MeasuredImage reference = measured_image(sides[2].timed.renderer());
         if (reference.error.empty()) return;
         for (size_t k = 0; k < 2; ++k) {
             if (!due(k)) continue;
             const ImageError e = error_against({sides[k].frame.rgba, 4}, reference);
-            report.sides[k].record.add({Kind::measured, sides[k].seconds, sides[k].samples, e.rmse, e.relmse});
+            report.sides[k].record.add({Kind::measured, sides[k].timed.seconds(), sides[k].timed.samples(), e.rmse, e.relmse});
         }
     }
 };
@@ -210,10 +167,7 @@ Interval StrategySide::error(ErrorMetric metric) const {
     return record.points().empty() ? Interval{} : record.points().back().error(metric);
 }
 
-StrategyComparison::StrategyComparison(const RendererOptions& options) : state_(std::make_unique<State>()) {
-    state_->options = options;
-    state_->single_thread = options.threads == 1;
-}
+StrategyComparison::StrategyComparison(const RendererOptions& options) : state_(std::make_unique<State>()) { state_->options = options; }
 StrategyComparison::~StrategyComparison() = default;
 
 void StrategyComparison::begin(const Scene& scene, const RenderSettings& settings, StrategyBudget budget, int longest) {

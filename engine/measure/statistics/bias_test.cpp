@@ -139,6 +139,11 @@ double RegionBias::difference() const {
 
 double RegionBias::z() const { return error > 0 ? normal_deviate(difference() / error, degrees) : 0; }
 
+bool BiasTest::is_biased(const RegionBias& r) const {
+    const bool beyond_noise = r.error > 0 ? std::abs(r.z()) > threshold : r.mean != r.reference;
+    return beyond_noise && std::abs(r.mean - r.reference) > rounding * r.reference;
+}
+
 MeasuredImage merged(const MeasuredImage& a, const MeasuredImage& b) {
     if (a.samples == 0) return b;
     if (b.samples == 0) return a;
@@ -167,14 +172,14 @@ BiasTest test_bias(const MeasuredImage& image, const MeasuredImage& reference, d
         for (int i = 0; i < across; ++i)
             regions.push_back({i * width / across, j * height / down, (i + 1) * width / across, (j + 1) * height / down});
     const Rectangle whole{0, 0, width, height};
+    test.rounding = rounding;
     test.threshold = significant_deviate(across * down + 2, bias_significance);
     const double level = normal_two_sided(test.threshold);
     const Comparison plain(image, reference, level, std::vector<double>(image.error.size(), 1));
     const Comparison weighted(image, reference, level, inverse_variances(reference, regions));
     const auto consider = [&](const RegionBias& r) {
         if (std::abs(r.z()) >= std::abs(test.worst.z())) test.worst = r;
-        const bool beyond_noise = r.error > 0 ? std::abs(r.z()) > test.threshold : r.mean != r.reference;
-        test.biased |= beyond_noise && std::abs(r.mean - r.reference) > rounding * r.reference;
+        test.biased |= test.is_biased(r);
     };
     consider(test.whole = plain.measure(whole));
     consider(test.pooled = weighted.measure(whole));

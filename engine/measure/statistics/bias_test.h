@@ -42,7 +42,10 @@ struct BiasTest {
     std::vector<RegionBias> regions; // grid, by rows
     RegionBias worst;                // the largest deviation of all, in standard errors
     double threshold = 0;            // significance threshold of |z|
+    double rounding = 0;             // relative difference that float rounding explains
     bool biased = false;
+    // Whether this region, or a mean of this test, differs by more than noise.
+    bool is_biased(const RegionBias& region) const;
     std::string_view verdict() const { return biased ? "biased" : "unbiased-within-noise"; }
 };
 

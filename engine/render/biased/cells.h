@@ -1,6 +1,7 @@
 // Cells of a grid without bounds, by hashed keys. Points within half a cell's size of a point are in the eight cells from the first on.
 #pragma once
 
+#include "core/math.h"
 #include "core/vec.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// What biased integrators put in the place of the indirect light that reaches diffuse surfaces.
+// What integrators for comparison put in the place of path tracing: of all of it behind the emission that the camera sees, or of the
+// indirect light that reaches diffuse surfaces.
 #pragma once
 
 #include "core/parallel.h"
@@ -25,15 +26,28 @@ struct PreparationContext {
     TileScratch& scratch_of(unsigned worker) const;
 };
 
-class IndirectLight {
+class PathReplacement {
 public:
-    virtual ~IndirectLight() = default;
+    virtual ~PathReplacement() = default;
+    // The path tracer's bounces, which it replaces only what follows of: 0 leaves the emission that the camera sees, 1 direct light, too.
+    virtual int traced_bounces() const = 0;
     // Before the first sample of an image. False if stopped.
     virtual bool prepare(const PreparationContext& context) = 0;
+    // True if each sample needs a preparation of its own: samples are then rendered one after the other.
+    virtual bool prepares_samples() const { return false; }
+    virtual bool prepare_sample(int64_t /*sample*/, const PreparationContext& /*context*/) { return true; }
+    // Adds the radiance of the job's paths to `tile`. `context` has all bounces; `scratch` is memory. Thread-safe with one for each thread.
+    virtual void add(const KernelContext& context, const TileJob& job, TileScratch& tile, TileScratch& scratch) const = 0;
+    virtual size_t memory_bytes() const = 0;
+};
+
+class IndirectLight : public PathReplacement {
+public:
+    int traced_bounces() const final { return 1; }
+    void add(const KernelContext& context, const TileJob& job, TileScratch& tile, TileScratch& scratch) const final;
     // Indirect irradiance at each point, RGB in lux, into `out`. Thread-safe with a scratch for each thread.
     virtual void irradiance(const KernelContext& context, std::span<const DiffusePoint> points, TileScratch& scratch,
                             std::span<Vec3d> out) const = 0;
-    virtual size_t memory_bytes() const = 0;
 };
 
 } // namespace blush

@@ -158,8 +158,8 @@ TEST(BiasedIntegrators, AreCaughtAsBiased) {
 TEST(BiasedIntegrators, DoNotDependOnThreads) {
     const Scene scene = shipped_scene("card-and-mug");
     const RenderSettings settings = settings_for(40, 30, 2);
-    for (const char* text :
-         {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16", "photon-map,photons=10000", "photon-map,photons=10000,gather=2"})
+    for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16", "photon-map,photons=10000",
+                             "photon-map,photons=10000,gather=2", "progressive-photon-map,photons=10000"})
         EXPECT_EQ(frame_of(scene, settings, text, 1).rgba, frame_of(scene, settings, text, 2).rgba) << text;
 }
 
@@ -231,12 +231,31 @@ TEST(LightProbes, EvenRadianceGivesPiTimesIt) {
 TEST(BiasedIntegrators, AreReadAndWritten) {
     for (const char* text :
          {"path", "ambient,color=auto,distance=1", "ambient,color=0.1:0.2:0.3,distance=2.5", "irradiance-cache,a=0.1,rays=32",
-          "light-probes,grid=3,rays=12", "photon-map,photons=1000,radius=auto,gather=0", "photon-map,photons=7,radius=0.25,gather=4"})
+          "light-probes,grid=3,rays=12", "photon-map,photons=1000,radius=auto,gather=0", "photon-map,photons=7,radius=0.25,gather=4",
+          "progressive-photon-map,photons=7,radius=auto,alpha=0.5"})
         EXPECT_EQ(to_string(integrator(text)), text);
-    for (const char* text : {"", "photons", "path,a=1", "ambient,a=1", "ambient,distance=0", "ambient,distance=nan", "ambient,color=1:2",
-                             "ambient,color=1:2:-3", "ambient,color=1:2:inf", "irradiance-cache,a=2", "irradiance-cache,rays=0",
-                             "irradiance-cache,rays=2000", "light-probes,grid=65", "photon-map,photons=0", "photon-map,radius=-1",
-                             "photon-map,rays=4", "photon-map,gather=-1", "light-probes,grid", "light-probes,"})
+    for (const char* text : {"",
+                             "photons",
+                             "path,a=1",
+                             "ambient,a=1",
+                             "ambient,distance=0",
+                             "ambient,distance=nan",
+                             "ambient,color=1:2",
+                             "ambient,color=1:2:-3",
+                             "ambient,color=1:2:inf",
+                             "irradiance-cache,a=2",
+                             "irradiance-cache,rays=0",
+                             "irradiance-cache,rays=2000",
+                             "light-probes,grid=65",
+                             "photon-map,photons=0",
+                             "photon-map,radius=-1",
+                             "photon-map,rays=4",
+                             "photon-map,gather=-1",
+                             "photon-map,alpha=0.5",
+                             "progressive-photon-map,alpha=0",
+                             "progressive-photon-map,gather=1",
+                             "light-probes,grid",
+                             "light-probes,"})
         EXPECT_FALSE(parse_integrator(text)) << text;
 }
 

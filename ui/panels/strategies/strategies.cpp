@@ -1,7 +1,7 @@
 // Strategies panel: BSDF sampling, light sampling and MIS side by side, with their errors over time and what each contributes to MIS.
 #include "ui/panels/panels.h"
 #include "ui/panels/strategies/heuristic_fields.h"
-#include "ui/views/strategies_view.h"
+#include "ui/views/lab/strategies_view.h"
 #include "ui/widgets/elided_text.h"
 #include "ui/widgets/plot_drawing.h"
 #include "ui/widgets/segments.h"

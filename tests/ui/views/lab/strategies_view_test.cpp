@@ -1,5 +1,5 @@
 // What the Strategies panel shows of a report: curves without unknown errors, the scale of variances, maps and notes.
-#include "ui/views/strategies_view.h"
+#include "ui/views/lab/strategies_view.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>

@@ -1,7 +1,7 @@
 // Survivors of Russian roulette: fates and weights of paths, and that roulette leaves the mean unchanged.
 #include "core/math.h"
 #include "tests/support/sample_project.h"
-#include "ui/views/survivors_view.h"
+#include "ui/views/lab/survivors_view.h"
 
 #include <gtest/gtest.h>
 

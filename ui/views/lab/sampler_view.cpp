@@ -1,4 +1,4 @@
-#include "ui/views/sampler_view.h"
+#include "ui/views/lab/sampler_view.h"
 
 #include <fmt/format.h>
 

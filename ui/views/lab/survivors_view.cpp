@@ -1,4 +1,4 @@
-#include "ui/views/survivors_view.h"
+#include "ui/views/lab/survivors_view.h"
 
 #include "core/math.h"
 

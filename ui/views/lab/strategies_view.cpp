@@ -1,6 +1,5 @@
-#include "ui/views/strategies_view.h"
+#include "ui/views/lab/strategies_view.h"
 
-#include "core/srgb.h"
 #include "ui/snapshots/heat_map.h"
 
 #include <algorithm>
@@ -26,10 +25,6 @@ const std::vector<float>* variance_of(const StrategyReport& r, Show show, size_t
 // Two digits without an exponent where that is short.
 std::string short_number(double v) { return v >= 10 && v < 1e6 ? fmt::format("{:.0f}", v) : fmt::format("{:.2g}", v); }
 
-uint32_t texel(const Vec3& linear) {
-    const auto encoded = [](float v) { return int(255 * srgb_from_linear(std::clamp(v, 0.f, 1.f)) + 0.5f); };
-    return uint32_t(IM_COL32(encoded(linear.x), encoded(linear.y), encoded(linear.z), 255));
-}
 uint32_t grey(float weight) {
     const int v = int(255 * std::clamp(weight, 0.f, 1.f) + 0.5f);
     return uint32_t(IM_COL32(v, v, v, 255));
@@ -74,7 +69,7 @@ std::vector<uint32_t> strategy_texels(const StrategyReport& r, Show show) {
     if (!(scale.high > 0)) return texels;
     for (size_t k = 0; k < r.sides.size(); ++k)
         for (const float v : *variance_of(r, show, k))
-            texels.push_back(texel(heat_map_color(v > 0 ? float(std::log10(double(v) / scale.low) / decades) : 0)));
+            texels.push_back(map_texel(heat_map_color(v > 0 ? float(std::log10(double(v) / scale.low) / decades) : 0)));
     return texels;
 }
 

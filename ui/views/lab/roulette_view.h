@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ui/jobs/roulette_runner.h"
-#include "ui/views/survivors_view.h"
+#include "ui/views/lab/survivors_view.h"
 
 #include <memory>
 

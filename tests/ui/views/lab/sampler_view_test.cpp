@@ -1,5 +1,5 @@
 // Chart and text of the Samplers panel.
-#include "ui/views/sampler_view.h"
+#include "ui/views/lab/sampler_view.h"
 
 #include <gtest/gtest.h>
 
