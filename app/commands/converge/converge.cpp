@@ -187,7 +187,7 @@ void add_converge_command(CLI::App& app, std::function<int()>& run) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     sub->add_option("--preset", command->preset,
-                    "Settings to compare: roulette, strategies, bounces, samplers, caustics or tricks (biased integrators)")
+                    "Settings to compare: roulette, strategies, bounces, samplers, caustics or tricks (integrators)")
         ->type_name("NAME");
     sub->add_option("--repeats", command->repeats, "Independent repeats, each with its own seed [4]")
         ->check(CLI::Range(1, 1000))

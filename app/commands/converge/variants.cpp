@@ -23,8 +23,12 @@ constexpr const char* samplers[]{"random numbers: --sampler random", "Sobol poin
                                  "random numbers, adaptive: --sampler random --adaptive on",
                                  "Sobol points, adaptive: --sampler sobol --adaptive on"};
 
-constexpr const char* caustics[]{"without: --caustics off", "path guiding: --caustics guiding", "light paths: --caustics light-paths",
-                                 "manifold sampling: --caustics manifold", "all (auto): --caustics auto"};
+constexpr const char* caustics[]{"without: --caustics off",
+                                 "path guiding: --caustics guiding",
+                                 "light paths: --caustics light-paths",
+                                 "manifold sampling: --caustics manifold",
+                                 "all (auto): --caustics auto",
+                                 "progressive photon mapping: --integrator progressive-photon-map"};
 
 constexpr const char* tricks[]{"path tracing: --integrator path",
                                "ambient light and occlusion: --integrator ambient",
