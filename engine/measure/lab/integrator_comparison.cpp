@@ -90,7 +90,7 @@ void IntegratorComparison::begin(const Scene& scene, const RenderSettings& setti
     State& s = *state_;
     RenderSettings small = plain_lab_settings(settings, longest);
     s.path.timed.begin(s.options, scene, small);
-    // A renderer has one integrator for life.
+    // The integrator of a renderer cannot change.
     s.biased = {};
     RendererOptions own = s.options;
     own.integrator = integrator;

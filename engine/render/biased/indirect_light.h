@@ -29,7 +29,7 @@ struct PreparationContext {
 class PathReplacement {
 public:
     virtual ~PathReplacement() = default;
-    // The path tracer's bounces, which it replaces only what follows of: 0 leaves the emission that the camera sees, 1 direct light, too.
+    // Bounces that the path tracer still renders: with 0 the emission that the camera sees, with 1 direct light, too.
     virtual int traced_bounces() const = 0;
     // Before the first sample of an image. False if stopped.
     virtual bool prepare(const PreparationContext& context) = 0;

@@ -14,6 +14,7 @@ constexpr uint32_t gather_seed = 0x9b0704u; // any
 
 bool PhotonMap::prepare(const PreparationContext& context) {
     radius_ = photon_radius(options_, context.scene);
+    photons_.begin(context);
     PreparationContext whole = context;
     const bool gathers = options_.gather > 0;
     if (gathers) --whole.kernel.settings.max_bounces; // the gather rays scatter once more

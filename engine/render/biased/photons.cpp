@@ -1,7 +1,6 @@
 #include "render/biased/photons.h"
 
 #include "render/biased/hit_shading.h"
-#include "render/integrator/light_path_emission.h"
 
 #include <algorithm>
 #include <utility>
@@ -73,23 +72,26 @@ double photon_radius(const BiasedIntegrator& options, const CasterSphere& scene)
     return options.radius > 0 ? double(options.radius) : auto_radius * std::max(double(scene.radius), 1e-30);
 }
 
+void PhotonGrid::begin(const PreparationContext& context) {
+    const SceneTables& tables = *context.kernel.scene;
+    emission_ = tables.lights.count > 0 ? LightPathEmission::of_all_lights(tables, context.scene) : LightPathEmission();
+}
+
 bool PhotonGrid::trace(const PreparationContext& context, const PhotonSelection& selection) {
     radius_ = selection.radius;
     photons_.clear();
     cells_.clear();
-    if (context.kernel.scene->lights.count == 0) return true;
+    if (emission_.empty()) return true;
     KernelContext kernel = context.kernel;
     SceneTables tables = *kernel.scene;
-    const LightPathEmission emission = LightPathEmission::of_all_lights(tables, context.scene);
-    if (emission.empty()) return true;
-    tables.emission = emission.tables(1);
+    tables.emission = emission_.tables(1);
     kernel.scene = &tables;
     const int64_t tiles = (selection.paths + tile_capacity - 1) / tile_capacity;
     std::vector<std::vector<Photon>> of_tile{size_t(tiles)};
     const bool done = context.workers.for_each(tiles, context.wanted, [&](int64_t tile, unsigned worker) {
         const int64_t first = tile * tile_capacity;
         const int count = int(std::min<int64_t>(tile_capacity, selection.paths - first));
-        of_tile[size_t(tile)] = trace_photons(kernel, emission, first, count, selection, context.scratch_of(worker));
+        of_tile[size_t(tile)] = trace_photons(kernel, emission_, first, count, selection, context.scratch_of(worker));
     });
     for (const std::vector<Photon>& photons : of_tile) photons_.insert(photons_.end(), photons.begin(), photons.end());
     sort_by_cells();

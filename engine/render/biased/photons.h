@@ -5,6 +5,7 @@
 #include "render/biased/biased_integrator.h"
 #include "render/biased/cells.h"
 #include "render/biased/indirect_light.h"
+#include "render/integrator/light_path_emission.h"
 #include "scene/affine.h"
 
 #include <cmath>
@@ -32,6 +33,8 @@ struct PhotonSelection {
 
 class PhotonGrid {
 public:
+    // Before the first trace() of an image: prepares the emission of all lights.
+    void begin(const PreparationContext& context);
     // Light paths of all lights, with the bounces of `context`. False if stopped.
     bool trace(const PreparationContext& context, const PhotonSelection& selection);
     // Calls visit(photon) for photons within `radius` of a point and at most `flatness` times that off its plane: what lies higher is
@@ -47,6 +50,7 @@ private:
     };
     void sort_by_cells();
 
+    LightPathEmission emission_;
     double radius_ = 1;
     std::vector<Photon> photons_; // by cell
     std::unordered_map<uint64_t, Range> cells_;

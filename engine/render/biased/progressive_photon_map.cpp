@@ -28,6 +28,7 @@ double progressive_radius(double first, double alpha, int64_t sample) {
 
 bool ProgressivePhotonMap::prepare(const PreparationContext& context) {
     first_radius_ = photon_radius(options_, context.scene);
+    photons_.begin(context);
     return true;
 }
 
