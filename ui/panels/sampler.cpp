@@ -1,4 +1,5 @@
 // Samplers panel: a pair of dimensions of a pixel's samples, as random numbers and as Sobol points, and what they cost in the error.
+#include "ui/lab_panel.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/plot_drawing.h"
 #include "ui/widgets/tooltip.h"
@@ -96,14 +97,8 @@ void draw_sampler_panel(PanelContext& c) {
         view.runner.reset(); // it measures only while that is shown
         return;
     }
-    if (!view.runner) view.runner = std::make_shared<SamplerRunner>();
-    RenderSettings settings = c.project().render;
-    settings.width = c.render_width;
-    settings.height = c.render_height;
-    view.runner->measure({c.scene(), settings});
-    view.state = view.runner->state();
-    if (!view.state.failure.empty()) return quiet_text(view.state.failure);
-    if (!view.state.rests) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.25);
+    if (const std::string& failure = measure_while_open(c, view, SamplerWork::Input{c.scene(), lab_image_settings(c)}); !failure.empty())
+        return quiet_text(failure);
     draw_sampler_report(c, view.state.output);
 }
 

@@ -1,4 +1,5 @@
 // Integrators panel: a biased integrator beside path tracing at equal time, with its error over time and where it is wrong.
+#include "ui/lab_panel.h"
 #include "ui/panels/integrators/integrator_fields.h"
 #include "ui/panels/panels.h"
 #include "ui/views/lab/integrators_view.h"
@@ -170,12 +171,12 @@ void draw_figures(PanelContext& c, const IntegratorReport* report) {
 }
 
 struct Texts {
-    std::string verdict, bias;
+    std::string verdict, bias, note;
 };
 
 Texts texts_of(const IntegratorReport* report, const IntegratorsView& view) {
-    if (!report) return {"The first round is being rendered: records, probes or photons are made first.", ""};
-    return {integrator_verdict(*report), integrator_bias_text(*report, view.integrator.kind, view.metric)};
+    if (!report) return {"The first round is being rendered: records, probes or photons are made first.", "", ""};
+    return {integrator_verdict(*report), integrator_bias_text(*report, view.integrator.kind, view.metric), integrator_note(*report)};
 }
 
 void draw_texts(PanelContext& c, const Texts& texts) {
@@ -184,7 +185,8 @@ void draw_texts(PanelContext& c, const Texts& texts) {
     tip_for_last_item(c.ui,
                       "The bias test compares the means of the image and of its regions with those of the path traced image; all tests "
                       "together err in 1 of 100 looks. What noise hides now may be found with more samples.");
-    if (!texts.bias.empty()) quiet_text(texts.bias);
+    for (const std::string* text : {&texts.bias, &texts.note})
+        if (!text->empty()) quiet_text(*text);
 }
 
 void draw_chart(PanelContext& c, const IntegratorReport* report, float height) {
@@ -249,14 +251,9 @@ void draw_integrator_report(PanelContext& c, const IntegratorReport* report) {
 
 void draw_integrators_panel(PanelContext& c) {
     IntegratorsView& view = c.ui.integrators;
-    if (!view.runner) view.runner = std::make_shared<IntegratorRunner>();
-    RenderSettings settings = c.project().render;
-    settings.width = c.render_width;
-    settings.height = c.render_height;
-    view.runner->measure({c.scene(), settings, view.integrator});
-    view.state = view.runner->state();
-    if (!view.state.rests && view.state.failure.empty()) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.2);
-    if (!view.state.failure.empty()) return quiet_text(view.state.failure);
+    if (const std::string& failure = measure_while_open(c, view, IntegratorWork::Input{c.scene(), lab_image_settings(c), view.integrator});
+        !failure.empty())
+        return quiet_text(failure);
     draw_integrator_report(c, view.state.output.get());
 }
 

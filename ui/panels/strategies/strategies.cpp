@@ -1,4 +1,5 @@
 // Strategies panel: BSDF sampling, light sampling and MIS side by side, with their errors over time and what each contributes to MIS.
+#include "ui/lab_panel.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/strategies/heuristic_fields.h"
 #include "ui/views/lab/strategies_view.h"
@@ -194,14 +195,9 @@ void draw_strategy_report(PanelContext& c, const StrategyReport* report) {
 
 void draw_strategies_panel(PanelContext& c) {
     StrategiesView& view = c.ui.strategies;
-    if (!view.runner) view.runner = std::make_shared<StrategyRunner>();
-    RenderSettings settings = c.project().render;
-    settings.width = c.render_width;
-    settings.height = c.render_height;
-    view.runner->measure({c.scene(), settings, view.budget});
-    view.state = view.runner->state();
-    if (!view.state.rests && view.state.failure.empty()) c.ui.seconds_to_next_frame = std::min(c.ui.seconds_to_next_frame, 0.2);
-    if (!view.state.failure.empty()) return quiet_text(view.state.failure);
+    if (const std::string& failure = measure_while_open(c, view, StrategyWork::Input{c.scene(), lab_image_settings(c), view.budget});
+        !failure.empty())
+        return quiet_text(failure);
     draw_strategy_report(c, view.state.output.get());
 }
 

@@ -81,6 +81,12 @@ std::string integrator_bias_text(const IntegratorReport& r, BiasedIntegrator::Ki
                        verdict_of(kind) == "consistent" ? "so far, and falls with the samples" : "stays, however long it renders");
 }
 
+std::string integrator_note(const IntegratorReport& r) {
+    if (r.path.dropped + r.biased.dropped == 0) return {};
+    return fmt::format("Samples that were not finite or negative are left out: {} of path tracing, {} of the other.", r.path.dropped,
+                       r.biased.dropped);
+}
+
 Plot integrator_plot(const IntegratorReport& r, BiasedIntegrator::Kind kind, ErrorMetric metric) {
     Plot plot;
     plot.title = fmt::format("{}, thin dashes: 1/{}", name_of(metric), metric == ErrorMetric::rmse ? "√N" : "N");

@@ -43,6 +43,9 @@ std::string integrator_verdict(const IntegratorReport& report);
 // The bias, whether it stays or falls with the samples, or that it is not known.
 std::string integrator_bias_text(const IntegratorReport& report, BiasedIntegrator::Kind kind, ErrorMetric metric);
 
+// Samples that the images leave out; empty: none.
+std::string integrator_note(const IntegratorReport& report);
+
 // Over time, on logarithmic axes: the noise of the path traced image, the error of the biased one and the noise in it, the slope of
 // independent samples; as a level the bias that stays. Errors that are not known have no point.
 Plot integrator_plot(const IntegratorReport& report, BiasedIntegrator::Kind kind, ErrorMetric metric);

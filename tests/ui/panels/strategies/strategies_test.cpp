@@ -1,67 +1,12 @@
 // The Strategies panel: it renders only while it is open, drawing it edits nothing, and it lists what the report holds.
-#include "tests/support/eventually.h"
-#include "tests/support/process.h"
-#include "tests/support/sample_project.h"
-#include "tests/ui/clipped_text.h"
-#include "tests/ui/imgui_test.h"
-#include "tests/ui/shipped_ocio_config.h"
-#include "ui/panels/instruments.h"
-#include "ui/panels/panels.h"
-#include "ui/window/theme.h"
-
-#include <fmt/format.h>
-#include <fstream>
-#include <iterator>
+#include "tests/ui/lab_panel_test.h"
 
 namespace blush::TEST_FILE {
 namespace {
 
-class StrategiesPanel : public test::ImGuiTest {
+class StrategiesPanel : public test::LabPanelTest {
 protected:
-    StrategiesPanel() { ui.probe = Probe(folder / "probe.json"); }
-    PanelContext context() { return {document, ui, color, nullptr, SessionStatus(), 64, 48}; }
-    void draw() {
-        ui.probe.begin_frame();
-        in_window([&] {
-            PanelContext c = context();
-            draw_strategies_panel(c);
-        });
-        ui.probe.end_frame({});
-    }
-    void draw_in_a_dock(const StrategyReport& report, const ImVec2& ems) {
-        for (int i = 0; i < 3; ++i) {
-            ImGui::NewFrame();
-            const float em = ImGui::GetFontSize();
-            ImGui::GetIO().DisplaySize = {ems.x * em + 50, ems.y * em + 50};
-            ImGui::SetNextWindowPos({0, 0});
-            ImGui::SetNextWindowSize({ems.x * em, ems.y * em});
-            ImGui::Begin("dock", nullptr, ImGuiWindowFlags_NoDecoration ^ ImGuiWindowFlags_NoScrollbar);
-            PanelContext c = context();
-            draw_strategy_report(c, &report);
-            ImGui::End();
-            ImGui::Render();
-        }
-    }
-    bool shows(const std::string& widget) const {
-        std::ifstream in(folder / "probe.json");
-        const std::string text(std::istreambuf_iterator<char>(in), {});
-        return text.find("\"" + widget) != text.npos;
-    }
-    void set_open(bool open) {
-        PanelContext c = context();
-        find_instrument(instruments(), "strategies")->set_open(c, open);
-    }
-    bool has_rounds(int64_t rounds) {
-        return test::eventually([&] {
-            draw();
-            return ui.strategies.state.output && ui.strategies.state.output->rounds >= rounds;
-        });
-    }
-
-    test::TemporaryFolder folder;
-    const ColorManagement color = test::our_colors();
-    Document document{test::sample_project().project};
-    UiState ui;
+    StrategiesPanel() : LabPanelTest("strategies", draw_strategies_panel) {}
 };
 
 TEST_F(StrategiesPanel, RendersWhileItIsOpen) {
@@ -69,7 +14,7 @@ TEST_F(StrategiesPanel, RendersWhileItIsOpen) {
     EXPECT_FALSE(ui.strategies.runner);
     set_open(true);
     EXPECT_FALSE(ui.strategies.runner) << "nothing is drawn yet";
-    ASSERT_TRUE(has_rounds(3));
+    ASSERT_TRUE(has_rounds(ui.strategies, 3));
     draw();
     EXPECT_FALSE(document.can_undo());
     EXPECT_TRUE(document.project() == before) << "drawing edits nothing";
@@ -85,7 +30,7 @@ TEST_F(StrategiesPanel, RendersWhileItIsOpen) {
 TEST_F(StrategiesPanel, StartsAgainWithOtherBudgetsAndAfterEdits) {
     set_open(true);
     ui.strategies.budget = StrategyBudget::samples;
-    ASSERT_TRUE(has_rounds(2));
+    ASSERT_TRUE(has_rounds(ui.strategies, 2));
     const StrategyWork::Output report = ui.strategies.state.output;
     for (const StrategySide& side : report->sides) EXPECT_EQ(side.samples, report->rounds * strategy_round_samples);
 
@@ -122,21 +67,14 @@ TEST_F(StrategiesPanel, IsReadableAtAllSizes) {
         part.variance = report.mis().variance;
         part.share = 0.5;
     }
-    for (const float scale : {1.f, 1.5f, 2.f}) {
-        ImGui::DestroyContext();
-        ImGuiTest::SetUp();
-        ImGui::GetIO().Fonts->Clear();
-        load_fonts(BLUSH_ASSETS, scale);
-        apply_theme(scale);
-        ImGui::GetIO().Fonts->Build();
-        for (const ImVec2 ems : {ImVec2{25, 40}, ImVec2{35, 20}, ImVec2{48, 15}, ImVec2{80, 17}, ImVec2{120, 40}})
-            for (const auto show : {StrategiesView::Show::image, StrategiesView::Show::mis_weight, StrategiesView::Show::mis_variance}) {
-                ui.strategies.show = show;
-                draw_in_a_dock(report, ems);
-                for (const std::string& problem : test::unreadable_text(*ImGui::GetDrawData()))
-                    ADD_FAILURE() << ems.x << " x " << ems.y << " ems, scale " << scale << ": " << problem;
-            }
-    }
+    expect_readable([&](PanelContext& c) { draw_strategy_report(c, &report); },
+                    [&](const std::function<void()>& check) {
+                        using Show = StrategiesView::Show;
+                        for (const Show show : {Show::image, Show::mis_weight, Show::mis_variance}) {
+                            ui.strategies.show = show;
+                            check();
+                        }
+                    });
 }
 
 } // namespace

@@ -74,6 +74,13 @@ TEST(IntegratorsView, BiasIsSaidOrHidden) {
               "Bias as relMSE: 0.0123 (0.012 to 0.0126) so far, and falls with the samples.");
 }
 
+TEST(IntegratorsView, SamplesThatAreLeftOutAreSaid) {
+    IntegratorReport r = report({});
+    EXPECT_EQ(integrator_note(r), "");
+    r.biased.dropped = 3;
+    EXPECT_EQ(integrator_note(r), "Samples that were not finite or negative are left out: 0 of path tracing, 3 of the other.");
+}
+
 TEST(IntegratorsView, CurvesHaveKnownErrorsOnlyAndTheBiasIsALevel) {
     IntegratorReport r = report({});
     const Interval known{true, 0.1, 0.05, 0.2}, unknown{false, 0, 0, 0.2};
