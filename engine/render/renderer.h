@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "render/biased/biased_integrator.h"
+#include "render/comparison/comparison_integrator.h"
 #include "render/compile/compiled_info.h"
 #include "render/error/reuse_covariance.h"
 #include "render/film/film_size.h"
@@ -39,7 +39,7 @@ struct RendererOptions {
     // Of a part: adaptive sampling by these shares, which fit the film, instead of those of a pilot.
     std::optional<SampleAllocation::Shares> allocation = {};
     // Not path tracing, for comparison: the film's beauty alone is that of this integrator, other planes hold its direct light.
-    BiasedIntegrator integrator = {};
+    ComparisonIntegrator integrator = {};
 };
 
 // World-space position of a light meter, lit from the side of its normal.

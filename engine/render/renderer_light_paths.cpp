@@ -11,6 +11,7 @@ namespace blush {
 
 // One pass for each of these samples, if light paths pay.
 bool Renderer::State::trace_light_paths(int64_t first, int64_t count, const Wanted& wanted) {
+    if (!add_replacement_passes(first, count, wanted)) return false;
     if (!splats) return true;
     const SceneTables tables = learned.tables(scene.tables(), 1);
     KernelContext context = context_for(tables, film.width(), film.height());

@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/ticks.h"
-#include "render/biased/make_integrator.h"
+#include "render/comparison/make_integrator.h"
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/error/small_highlights.h"
@@ -106,8 +106,10 @@ struct Renderer::State {
     static std::string name_of(const Kernel& k) { return std::string(k.isa) + "/" + std::string(k.name); }
 
     FilmSize full_film() const {
-        return {settings.width,    settings.height,          options.planes, transparent(),
-                settings.adaptive, int(mixing.gains.size()), catches(),      splats && divider == 1};
+        return {settings.width,    settings.height,
+                options.planes,    transparent(),
+                settings.adaptive, int(mixing.gains.size()),
+                catches(),         (splats && divider == 1) || (replacement && replacement->splats())};
     }
     // If the scene differs from the film only in the light mix, applies the mix and returns true.
     bool apply_mix(const Scene& whole, const RenderSettings& now) {
@@ -196,6 +198,7 @@ struct Renderer::State {
     KernelContext replacement_context() const;
     bool prepare_replacement(const Wanted& wanted);
     bool prepare_replacement_for(int64_t sample, const Wanted& wanted);
+    bool add_replacement_passes(int64_t first, int64_t count, const Wanted& wanted);
     void add_replacement(const TileJob& job, TileScratch& tile, unsigned worker);
     bool needs_highlights() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);

@@ -9,7 +9,7 @@ constexpr int64_t most_integrator_samples = 4096; // of the one with fewer: the 
 
 } // namespace
 
-IntegratorWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, const BiasedIntegrator& integrator_)
+IntegratorWork::Input::Input(const Scene& scene_, const RenderSettings& settings_, const ComparisonIntegrator& integrator_)
     : ImageInput{scene_, settings_}, integrator(integrator_) {
     settings.region = {};
     settings.resolution_scale = 1;

@@ -12,9 +12,9 @@ namespace blush {
 class IntegratorWork {
 public:
     struct Input : ImageInput {
-        Input(const Scene& scene, const RenderSettings& settings, const BiasedIntegrator& integrator);
+        Input(const Scene& scene, const RenderSettings& settings, const ComparisonIntegrator& integrator);
 
-        BiasedIntegrator integrator;
+        ComparisonIntegrator integrator;
         bool has_same_result(const Input& other) const;
     };
     // Shared, because the panel reads it in every frame and it holds images; null before the first round.

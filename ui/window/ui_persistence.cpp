@@ -25,8 +25,7 @@ template <class Ui, class V> void visit_panels(Ui& ui, const V& visit) {
     visit("strategies.budget", ui.strategies.budget, StrategyBudget::time, StrategyBudget::samples);
     visit("integrators.show", ui.integrators.show, IntegratorsView::Show::images, IntegratorsView::Show::difference);
     visit("integrators.metric", ui.integrators.metric, ErrorMetric::rmse, ErrorMetric::relmse);
-    visit("integrators.kind", ui.integrators.integrator.kind, BiasedIntegrator::Kind::ambient,
-          BiasedIntegrator::Kind::progressive_photon_map);
+    visit("integrators.kind", ui.integrators.integrator.kind, ComparisonIntegrator::Kind::ambient, ComparisonIntegrator::Kind::metropolis);
     visit("integrators.wipe", ui.integrators.wipe, 0.f, 1.f);
     visit("snapshots", ui.snapshots.open, false, true);
     visit("compare.wipe", ui.snapshots.compare.wipe, 0.f, 1.f);

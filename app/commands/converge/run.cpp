@@ -151,7 +151,7 @@ ConvergeResult run_converge(const ConvergeInput& input, const MeasuredImage& ref
     result.partial = interrupted;
     for (VariantResult& v : result.variants) {
         conclude(v, reference);
-        const bool path_traced = v.variant.integrator.kind == BiasedIntegrator::Kind::none;
+        const bool path_traced = v.variant.integrator.kind == ComparisonIntegrator::Kind::none;
         if (v.bias.biased && input.whole_paths && path_traced) v.bias_by_bounce = explain(input, v.variant.settings, interrupted);
     }
     return result;

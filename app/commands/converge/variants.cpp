@@ -28,7 +28,9 @@ constexpr const char* caustics[]{"without: --caustics off",
                                  "light paths: --caustics light-paths",
                                  "manifold sampling: --caustics manifold",
                                  "all (auto): --caustics auto",
-                                 "progressive photon mapping: --integrator progressive-photon-map"};
+                                 "progressive photon mapping: --integrator progressive-photon-map",
+                                 "bidirectional path tracing: --integrator bidirectional",
+                                 "Metropolis light transport: --integrator metropolis"};
 
 constexpr const char* tricks[]{"path tracing: --integrator path",
                                "ambient light and occlusion: --integrator ambient",

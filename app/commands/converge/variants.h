@@ -12,7 +12,7 @@ struct Variant {
     std::string name;
     std::string options; // as typed, for the report
     RenderSettings settings;
-    BiasedIntegrator integrator = {};
+    ComparisonIntegrator integrator = {};
 };
 
 // Parses "NAME: OPTIONS" with options of `render`, on top of `base`. Errors: no name, invalid options, or options that all

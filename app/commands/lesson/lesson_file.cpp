@@ -312,7 +312,7 @@ Result<RenderOptions> options_of_step(const LessonStep& step) {
 Result<RenderOptions> options_with(const LessonStep& step, const std::string& setting, const std::string& value) {
     // The image of a step is path traced; a claim may compare it with a biased integrator.
     if (setting == "integrator") {
-        const Result<BiasedIntegrator> integrator = parse_integrator(value);
+        const Result<ComparisonIntegrator> integrator = parse_integrator(value);
         if (!integrator) return integrator.error();
         Result<RenderOptions> options = options_of_step(step);
         if (options) options->integrator = *integrator;

@@ -89,7 +89,7 @@ Result<Plan> plan_of(const RenderCommand& c) {
         if (!layers) return layers.error();
         plan.layers = *layers;
     }
-    const bool biased = c.options.integrator.kind != BiasedIntegrator::Kind::none;
+    const bool biased = c.options.integrator.kind != ComparisonIntegrator::Kind::none;
     const Layers& l = plan.layers;
     if (biased && (l.film || l.groups || l.bounces > 0 || l.strategies || !c.begun.empty() || c.options.samples_given || !c.pixel.empty()))
         return Error{.what = "--integrator excludes --continue, --samples, --pixel and the layers film, groups, bounces and strategies"};
@@ -134,14 +134,20 @@ std::string loop_note(const LoopProgress& p) {
     return note;
 }
 
-// "irradiance-cache,a=0.2,rays=256: biased, ..."; empty for path tracing.
-std::string biased_text(const BiasedIntegrator& integrator) {
-    if (integrator.kind == BiasedIntegrator::Kind::none) return {};
+// "bidirectional"; empty for path tracing.
+std::string integrator_text(const ComparisonIntegrator& integrator) {
+    return integrator.kind == ComparisonIntegrator::Kind::none ? std::string() : to_string(integrator);
+}
+
+// "irradiance-cache,a=0.2,rays=256: biased, ..."; empty for unbiased integrators.
+std::string biased_text(const ComparisonIntegrator& integrator) {
+    if (bias_of(integrator.kind).empty()) return {};
     return fmt::format("{}: {}, {}", to_string(integrator), verdict_of(integrator.kind), bias_of(integrator.kind));
 }
 
 SnapshotMetadata metadata_of(const RenderCommand& c, const Plan& plan, const LoadedScene& loaded, const Rendered& rendered) {
     SnapshotMetadata m = image_metadata(c.scene, scene_hash(loaded.imported), loaded, plan.settings, rendered.loop);
+    m.integrator = integrator_text(c.options.integrator);
     m.biased = biased_text(c.options.integrator);
     if (rendered.denoised) m.denoised = denoised_by(*rendered.denoised);
     if (rendered.film) m.film = film_json(*rendered.film);
@@ -175,6 +181,7 @@ OrderedJson result_json(const RenderCommand& c, const RenderSettings& settings, 
                      {"misses_highlights", error.misses_highlights},
                      {"missing_light", if_known(!r.frame.missing_light.empty(), r.frame.missing_light)}};
     if (const std::string biased = biased_text(c.options.integrator); !biased.empty()) json["biased"] = biased;
+    if (const std::string integrator = integrator_text(c.options.integrator); !integrator.empty()) json["integrator"] = integrator;
     json["health"] = health_json(r.frame.health);
     json["warnings"] = OrderedJson::array();
     for (const Diagnostic& d : rendered.warnings) json["warnings"].push_back(Error{{}, d.what, d.where}.text());
@@ -206,6 +213,8 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     fmt::print("{}\n", r.complete ? "" : ", partial");
     if (const std::string biased = biased_text(c.options.integrator); !biased.empty())
         fmt::print("{}; the error is that of noise alone\n", biased);
+    else if (const std::string integrator = integrator_text(c.options.integrator); !integrator.empty())
+        fmt::print("{}: {}\n", integrator, verdict_of(c.options.integrator.kind));
     if (r.frame.clamp.samples > 0)
         fmt::print("clamping removed {:.3g} % of the light, from {} samples\n", 100 * r.frame.clamp.share, r.frame.clamp.samples);
     if (r.frame.health.dropped() > 0)

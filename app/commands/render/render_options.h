@@ -3,7 +3,7 @@
 
 #include "app/common/scene_overrides.h"
 #include "core/result.h"
-#include "render/biased/biased_integrator.h"
+#include "render/comparison/comparison_integrator.h"
 #include "render/denoise/denoiser.h"
 #include "scene/render_settings.h"
 #include "scene/view_settings.h"
@@ -21,7 +21,7 @@ struct RenderOptions {
     RenderSettings settings = recommended_settings();
     ViewSettings view;
     SceneOverrides overrides;
-    BiasedIntegrator integrator;                    // for comparison
+    ComparisonIntegrator integrator;                // for comparison
     std::optional<DenoiseQuality> denoise;          // empty: off
     std::optional<PixelRect> region;                // of an image of the requested size; empty: all of it
     std::string allocation;                         // file of adaptive sampling for a part; empty: none

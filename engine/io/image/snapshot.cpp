@@ -125,6 +125,7 @@ std::map<std::string, std::string> snapshot_texts(const SnapshotMetadata& m) {
     for (const auto& [key, text] : {std::pair("blush:scene_file", &m.scene_file), std::pair("blush:name", &m.name),
                                     std::pair("blush:note", &m.note), std::pair("blush:film", &m.film)})
         if (!text->empty()) texts.emplace(key, *text);
+    if (!m.integrator.empty()) texts.emplace("blush:integrator", m.integrator);
     if (!m.biased.empty()) texts.emplace("blush:biased", m.biased);
     if (m.partial) texts.emplace("blush:partial", "1");
     return texts;
@@ -176,6 +177,7 @@ Result<SnapshotMetadata> read_snapshot_metadata(const std::map<std::string, std:
     m.camera = text("blush:camera");
     m.error = text("blush:error");
     m.denoised = text("blush:denoised");
+    m.integrator = text("blush:integrator");
     m.biased = text("blush:biased");
     m.edits = text("blush:edits");
     m.partial = text("blush:partial") == "1";

@@ -25,10 +25,11 @@ struct SnapshotMetadata {
     int64_t spp = 0;                           // samples per pixel in the image
     int64_t first_sample = 0, last_sample = 0; // sample indices [first, last)
     uint32_t seed = 0;
-    double seconds = 0;   // render time
-    std::string error;    // estimated relative error as text, empty if unknown
-    std::string denoised; // how the layer "denoised" was made: network, precision, samples; empty without one
-    std::string biased;   // integrator that is not path tracing, and why it is biased; empty for path tracing
+    double seconds = 0;     // render time
+    std::string error;      // estimated relative error as text, empty if unknown
+    std::string denoised;   // how the layer "denoised" was made: network, precision, samples; empty without one
+    std::string integrator; // that is not path tracing; empty for path tracing
+    std::string biased;     // the integrator and why it is biased; empty if it is not
     RenderSettings settings;
     std::string edits;                // scene_edits_json.h, empty if nothing differs from the file
     bool partial = false;             // ended before any stop rule was reached

@@ -86,7 +86,7 @@ IntegratorComparison::IntegratorComparison(const RendererOptions& options) : sta
 }
 IntegratorComparison::~IntegratorComparison() = default;
 
-void IntegratorComparison::begin(const Scene& scene, const RenderSettings& settings, const BiasedIntegrator& integrator, int longest) {
+void IntegratorComparison::begin(const Scene& scene, const RenderSettings& settings, const ComparisonIntegrator& integrator, int longest) {
     State& s = *state_;
     RenderSettings small = plain_lab_settings(settings, longest);
     s.path.timed.begin(s.options, scene, small);

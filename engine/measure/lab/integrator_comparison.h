@@ -4,7 +4,7 @@
 #include "measure/convergence/convergence.h"
 #include "measure/lab/timed_render.h"
 #include "measure/statistics/bias_test.h"
-#include "render/biased/biased_integrator.h"
+#include "render/comparison/comparison_integrator.h"
 
 #include <functional>
 #include <memory>
@@ -49,7 +49,7 @@ public:
     ~IntegratorComparison();
 
     // Restarts. The image is scaled to at most `longest` pixels on its longer side. Throws as Renderer::update does.
-    void begin(const Scene& scene, const RenderSettings& settings, const BiasedIntegrator& integrator, int longest = 240);
+    void begin(const Scene& scene, const RenderSettings& settings, const ComparisonIntegrator& integrator, int longest = 240);
     // Each integrator renders until it has had the time of this round, in whole samples of all pixels, in an order that changes between
     // rounds. What one spends on its preparation the other spends on samples. False if `wanted` (called often, from many threads) returned
     // false: the round is then discarded, and no other round can follow.

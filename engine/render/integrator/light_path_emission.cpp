@@ -135,12 +135,14 @@ LightPathEmission LightPathEmission::of_all_lights(const SceneTables& tables, co
     LightPathEmission emission;
     emission.scene_ = scene;
     emission.lights_ = tables.lights.count;
-    const double sky = integral_of_environment(tables);
+    const double sky = integral_of_environment(tables), disk = double(pi) * double(scene.radius) * double(scene.radius);
     std::vector<double> flux;
     for (int32_t i = 0; i < tables.lights.count; ++i) {
         const LightRecord& light = tables.lights.lights[i];
-        const double f = LightKind(light.kind) == LightKind::point ? 4 * double(pi) * double(luminance(light.emission))
-                                                                   : flux_of_pair(light, scene, sky);
+        const double amount = double(luminance(light.emission)); // point: intensity; parallel sun: irradiance
+        double f = flux_of_pair(light, scene, sky);
+        if (LightKind(light.kind) == LightKind::point) f = 4 * double(pi) * amount;
+        if (LightKind(light.kind) == LightKind::sun && !(light.cone_height > 0)) f = disk * amount;
         flux.push_back(std::isfinite(f) ? f : 0);
     }
     if (std::ranges::any_of(flux, [](double f) { return f > 0; })) emission.set_chances(flux);
@@ -160,14 +162,18 @@ EmissionTables LightPathEmission::tables(float paths) const {
 }
 
 EmittedPath LightPathEmission::emit(const SceneTables& tables, const Sampler<float>& sampler) const {
-    const auto pair = sample_discrete<float>(thresholds_.data(), 0, int(thresholds_.size()), sampler.pair(pair_dimension).bits_x);
+    return emit_by(tables, {sampler.pair(pair_dimension), sampler.pair(point_dimension), sampler.pair(direction_dimension)}, sampler.index);
+}
+
+EmittedPath LightPathEmission::emit_by(const SceneTables& tables, const Random& numbers, uint32_t index) const {
+    const auto pair = sample_discrete<float>(thresholds_.data(), 0, int(thresholds_.size()), numbers.pair.bits_x);
     const int32_t columns = casters_.count + 1, light = pair.index / columns, target = pair.index % columns;
     const bool even = target == casters_.count;
     const CasterSphere& sphere = even ? scene_ : casters_.spheres[target];
-    const auto [p, density] = sample_point(tables, light, sampler.pair(point_dimension));
-    const Pair<float> random = sampler.pair(direction_dimension);
+    const auto [p, density] = sample_point(tables, light, numbers.point);
+    const Pair<float>& random = numbers.direction;
     EmittedPath path;
-    path.index = sampler.index;
+    path.index = index;
     Vec3 wi;
     if (p.infinite) {
         wi = p.position;

@@ -27,7 +27,13 @@ public:
     bool empty() const { return chances_.empty(); }
     // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
     EmissionTables tables(float paths) const;
-    // The emission of a path; `tables` as above, in the scene's. Uses the first pairs of the sampler (light_paths.h).
+    // Random numbers of an emission: choose the light and its caster, the point of the light, and the direction.
+    struct Random {
+        Pair<float> pair, point, direction;
+    };
+    // The emission of a path; `tables` as above, in the scene's. `index`: kept in the path.
+    EmittedPath emit_by(const SceneTables& tables, const Random& random, uint32_t index = 0) const;
+    // With the first pairs of the sampler (light_paths.h).
     EmittedPath emit(const SceneTables& tables, const Sampler<float>& sampler) const;
     size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }
 

@@ -100,6 +100,24 @@ template <Features S, class F> EmissionPoint<F> emission_point(const SceneTables
     return p;
 }
 
+// Pdf of NEE at a receiver for the point of a light that emits towards it, over the solid angle there. Of lights without size: as if the
+// point had an area of 1 m^2 that faces the receiver. In the lanes of `active`.
+template <Features S, class F>
+F nee_pdf(const SceneTables& scene, const Receiver<F>& to, const EmissionPoint<F>& at, const Mask<F>& active) {
+    const Vec<F> to_light = at.position - to.position;
+    const F d2 = dot(to_light, to_light);
+    const Int<F> kind = gather_field(scene.lights.lights, &LightRecord::kind, at.light);
+    const Mask<F> sphere = as_mask(kind == int32_t(LightKind::sphere)), sky = active && as_mask(kind == int32_t(LightKind::environment));
+    const F radius = gather_field(scene.lights.lights, &LightRecord::radius, at.light);
+    const Vec<F> to_center = gather_field3<F>(scene.lights.lights, &LightRecord::position, at.light) - to.position;
+    const F height = sphere_cone_height(dot(to_center, to_center), radius);
+    F pdf = select(at.infinite, at.density, at.density * d2 / max(emission_cosine(at), F(1e-6f)));
+    pdf = select(sphere, select(height > F(0.f), cone_pdf(select(height > F(0.f), height, F(1.f))), F(0.f)), pdf);
+    pdf = pdf * nee_probability<S, F>(scene, to, at.light, active && !sky);
+    if (any(sky)) pdf = select(sky, environment_nee_pdf<S, F>(scene, to, -at.away, sky), pdf);
+    return pdf;
+}
+
 // Density of light paths over that of the camera path that hits a light. `position`: at infinity any point of the ray.
 template <Features S, class F> F light_path_ratio(const SceneTables& scene, const Path<F>& path, const Int<F>& light,
                                                   const Vec<F>& position, const Vec<F>& normal, const Mask<F>& active) {

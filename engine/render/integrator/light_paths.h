@@ -93,18 +93,7 @@ F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted,
     Receiver<F> to{v.surface.position, v.shading.ns};
     to.normal = select<F>(v.material.bsdf.transmission > F(0.f), splat<F>(0.f), to.normal);
     to.normal = select<F>(v.material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), to.normal);
-    const Vec<F> to_light = position - v.surface.position;
-    const F d2 = dot(to_light, to_light);
-    const Int<F> kind = gather_field(scene.lights.lights, &LightRecord::kind, at.light);
-    const Mask<F> sphere = as_mask(kind == int32_t(LightKind::sphere)), sky = lanes && as_mask(kind == int32_t(LightKind::environment));
-    const F radius = gather_field(scene.lights.lights, &LightRecord::radius, at.light);
-    const Vec<F> to_center = gather_field3<F>(scene.lights.lights, &LightRecord::position, at.light) - v.surface.position;
-    const F height = sphere_cone_height(dot(to_center, to_center), radius);
-    F pdf = select(at.infinite, at.density, at.density * d2 / max(emission_cosine(at), F(1e-6f)));
-    pdf = select(sphere, select(height > F(0.f), cone_pdf(select(height > F(0.f), height, F(1.f))), F(0.f)), pdf);
-    pdf = pdf * nee_probability<S, F>(scene, to, at.light, lanes && !sky);
-    if (any(sky)) pdf = select(sky, environment_nee_pdf<S, F>(scene, to, v.wo, sky), pdf);
-    return pdf / v.cosine;
+    return nee_pdf<S, F>(scene, to, at, lanes) / v.cosine;
 }
 
 // Queues the connection of a vertex to the camera: radiance, as a share of one light path's flux, with its MIS weight.

@@ -4,6 +4,7 @@
 
 #include "render/film/film_planes.h"
 #include "render/integrator/light_path_emission.h"
+#include "scene/affine.h"
 #include "tests/render/integrator/caustic_images.h"
 #include "tests/support/statistics.h"
 

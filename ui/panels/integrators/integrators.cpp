@@ -1,4 +1,4 @@
-// Integrators panel: a biased integrator beside path tracing at equal time, with its error over time and where it is wrong.
+// Integrators panel: another integrator beside path tracing at equal time, with its error over time and where it is wrong.
 #include "ui/lab_panel.h"
 #include "ui/panels/integrators/integrator_fields.h"
 #include "ui/panels/panels.h"
@@ -28,11 +28,12 @@ void draw_choices(PanelContext& c, IntegratorsView& view) {
     const float gap = ImGui::GetFontSize();
     const int kind =
         segments(c.ui, "Integrators/Integrator", integrator_names, int(view.integrator.kind) - 1,
-                 "Direct light is that of the path tracer in all of them. Ambient light: the same light from all sides, times "
+                 "Direct light is that of the path tracer in the first four. Ambient light: the same light from all sides, times "
                  "ambient occlusion. Irradiance cache: few points, interpolated. Light probes: a grid of spherical harmonics. "
                  "Photon map: the density of light paths. PPM, progressive photon mapping: a new map for each sample, with smaller "
-                 "disks; all light comes from it.");
-    choose_integrator(view.integrator, BiasedIntegrator::Kind(kind + 1));
+                 "disks. BDPT, bidirectional path tracing: each vertex of a camera path is connected with each of a light path. "
+                 "MLT, Metropolis light transport: paths that find much light are mutated. The last three find all light their own way.");
+    choose_integrator(view.integrator, ComparisonIntegrator::Kind(kind + 1));
     same_line_if_fits(segments_width(IntegratorsView::show_names), gap);
     view.show = Show(segments(c.ui, "Integrators/Show", IntegratorsView::show_names, int(view.show),
                               "Wipe: drag the bar; path tracing is on its left. Difference: blue is too dark, red too bright; frames mark "

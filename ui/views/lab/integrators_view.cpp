@@ -25,8 +25,8 @@ int third(int from, int size, int whole) { return std::clamp(3 * (2 * from + siz
 
 } // namespace
 
-const char* integrator_name(BiasedIntegrator::Kind kind) {
-    return kind == BiasedIntegrator::Kind::none ? "Path tracing" : integrator_names[size_t(kind) - 1];
+const char* integrator_name(ComparisonIntegrator::Kind kind) {
+    return kind == ComparisonIntegrator::Kind::none ? "Path tracing" : integrator_names[size_t(kind) - 1];
 }
 
 std::vector<uint32_t> difference_texels(const IntegratorReport& r) {
@@ -74,7 +74,8 @@ std::string integrator_verdict(const IntegratorReport& r) {
     return text + ".";
 }
 
-std::string integrator_bias_text(const IntegratorReport& r, BiasedIntegrator::Kind kind, ErrorMetric metric) {
+std::string integrator_bias_text(const IntegratorReport& r, ComparisonIntegrator::Kind kind, ErrorMetric metric) {
+    if (verdict_of(kind) == "unbiased") return "Unbiased: its error is noise, which falls with the samples.";
     const Interval& b = r.bias(metric);
     if (!b.known) return fmt::format("Bias as {}: hidden by noise so far.", name_of(metric));
     return fmt::format("Bias as {}: {:.3g} ({:.3g} to {:.3g}) {}.", name_of(metric), b.value, b.low, b.high,
@@ -87,7 +88,7 @@ std::string integrator_note(const IntegratorReport& r) {
                        r.biased.dropped);
 }
 
-Plot integrator_plot(const IntegratorReport& r, BiasedIntegrator::Kind kind, ErrorMetric metric) {
+Plot integrator_plot(const IntegratorReport& r, ComparisonIntegrator::Kind kind, ErrorMetric metric) {
     Plot plot;
     plot.title = fmt::format("{}, thin dashes: 1/{}", name_of(metric), metric == ErrorMetric::rmse ? "√N" : "N");
     plot.x_label = "core seconds";

@@ -20,14 +20,15 @@ struct IntegratorsView {
     Show show = Show::images;
     float wipe = 0.5f; // share of the width
     ErrorMetric metric = ErrorMetric::relmse;
-    BiasedIntegrator integrator{.kind = BiasedIntegrator::Kind::ambient};
+    ComparisonIntegrator integrator{.kind = ComparisonIntegrator::Kind::ambient};
     std::shared_ptr<IntegratorRunner> runner; // while the panel is open
     IntegratorRunner::State state;            // last polled
 };
 
-// The biased integrators, in the order of BiasedIntegrator::Kind without `none`.
-constexpr std::array<const char*, 5> integrator_names{"Ambient light", "Irradiance cache", "Light probes", "Photon map", "PPM"};
-const char* integrator_name(BiasedIntegrator::Kind kind);
+// The integrators for comparison, in the order of ComparisonIntegrator::Kind without `none`.
+constexpr std::array<const char*, 7> integrator_names{
+    "Ambient light", "Irradiance cache", "Light probes", "Photon map", "PPM", "BDPT", "MLT"};
+const char* integrator_name(ComparisonIntegrator::Kind kind);
 
 // The difference b - p of a biased from a path traced image, relative to the mean of both, as RGBA bytes, width * height, top row first:
 // blue too dark, red too bright, full at difference_range.
@@ -40,14 +41,14 @@ std::string place_of(const RegionBias& region, const IntegratorReport& report);
 std::string amount_of(const RegionBias& region);
 // The verdict of the bias test in one sentence: what is wrong where, or that no bias is found in the noise so far.
 std::string integrator_verdict(const IntegratorReport& report);
-// The bias, whether it stays or falls with the samples, or that it is not known.
-std::string integrator_bias_text(const IntegratorReport& report, BiasedIntegrator::Kind kind, ErrorMetric metric);
+// The bias, whether it stays or falls with the samples, or that it is not known; that an unbiased integrator has none.
+std::string integrator_bias_text(const IntegratorReport& report, ComparisonIntegrator::Kind kind, ErrorMetric metric);
 
 // Samples that the images leave out; empty: none.
 std::string integrator_note(const IntegratorReport& report);
 
 // Over time, on logarithmic axes: the noise of the path traced image, the error of the biased one and the noise in it, the slope of
 // independent samples; as a level the bias that stays. Errors that are not known have no point.
-Plot integrator_plot(const IntegratorReport& report, BiasedIntegrator::Kind kind, ErrorMetric metric);
+Plot integrator_plot(const IntegratorReport& report, ComparisonIntegrator::Kind kind, ErrorMetric metric);
 
 } // namespace blush

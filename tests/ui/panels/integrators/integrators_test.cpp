@@ -5,7 +5,7 @@
 namespace blush::TEST_FILE {
 namespace {
 
-using Kind = BiasedIntegrator::Kind;
+using Kind = ComparisonIntegrator::Kind;
 using Show = IntegratorsView::Show;
 
 class IntegratorsPanel : public test::LabPanelTest {
@@ -32,17 +32,17 @@ TEST_F(IntegratorsPanel, RendersWhileItIsOpen) {
 TEST_F(IntegratorsPanel, StartsAgainWithOtherKnobsAndAfterEdits) {
     const RenderSettings& r = document.project().render;
     const Scene& scene = document.project().scene;
-    BiasedIntegrator integrator{.kind = Kind::ambient};
+    ComparisonIntegrator integrator{.kind = Kind::ambient};
     const IntegratorWork::Input now(scene, r, integrator);
     EXPECT_TRUE(now.has_same_result(IntegratorWork::Input(scene, r, integrator)));
     integrator.distance = 2;
     EXPECT_FALSE(now.has_same_result(IntegratorWork::Input(scene, r, integrator)));
     RenderSettings other = r;
     other.max_bounces = 1;
-    EXPECT_FALSE(now.has_same_result(IntegratorWork::Input(scene, other, BiasedIntegrator{.kind = Kind::ambient})));
+    EXPECT_FALSE(now.has_same_result(IntegratorWork::Input(scene, other, ComparisonIntegrator{.kind = Kind::ambient})));
     other = r;
     other.region = {0.1f, 0.1f, 0.5f, 0.5f};
-    EXPECT_TRUE(now.has_same_result(IntegratorWork::Input(scene, other, BiasedIntegrator{.kind = Kind::ambient})));
+    EXPECT_TRUE(now.has_same_result(IntegratorWork::Input(scene, other, ComparisonIntegrator{.kind = Kind::ambient})));
 
     set_open(true);
     ASSERT_TRUE(has_rounds(ui.integrators, 1));
@@ -53,11 +53,11 @@ TEST_F(IntegratorsPanel, StartsAgainWithOtherKnobsAndAfterEdits) {
 }
 
 TEST_F(IntegratorsPanel, AnotherIntegratorHasItsDefaults) {
-    BiasedIntegrator i{.kind = Kind::ambient, .distance = 7};
+    ComparisonIntegrator i{.kind = Kind::ambient, .distance = 7};
     choose_integrator(i, Kind::ambient);
     EXPECT_EQ(i.distance, 7) << "the same one keeps its knobs";
     choose_integrator(i, Kind::photon_map);
-    EXPECT_TRUE(i == BiasedIntegrator{.kind = Kind::photon_map});
+    EXPECT_TRUE(i == ComparisonIntegrator{.kind = Kind::photon_map});
 }
 
 // The longest figures of the panel, in the docks of small and large windows.

@@ -66,11 +66,11 @@ TEST(IntegratorsView, VerdictNamesTheWorstRegionThatIsNoNoise) {
 
 TEST(IntegratorsView, BiasIsSaidOrHidden) {
     IntegratorReport r = report({});
-    EXPECT_EQ(integrator_bias_text(r, BiasedIntegrator::Kind::ambient, ErrorMetric::rmse), "Bias as RMSE: hidden by noise so far.");
+    EXPECT_EQ(integrator_bias_text(r, ComparisonIntegrator::Kind::ambient, ErrorMetric::rmse), "Bias as RMSE: hidden by noise so far.");
     r.bias_relmse = {true, 0.0123, 0.012, 0.0126};
-    EXPECT_EQ(integrator_bias_text(r, BiasedIntegrator::Kind::ambient, ErrorMetric::relmse),
+    EXPECT_EQ(integrator_bias_text(r, ComparisonIntegrator::Kind::ambient, ErrorMetric::relmse),
               "Bias as relMSE: 0.0123 (0.012 to 0.0126) stays, however long it renders.");
-    EXPECT_EQ(integrator_bias_text(r, BiasedIntegrator::Kind::progressive_photon_map, ErrorMetric::relmse),
+    EXPECT_EQ(integrator_bias_text(r, ComparisonIntegrator::Kind::progressive_photon_map, ErrorMetric::relmse),
               "Bias as relMSE: 0.0123 (0.012 to 0.0126) so far, and falls with the samples.");
 }
 
@@ -89,8 +89,8 @@ TEST(IntegratorsView, CurvesHaveKnownErrorsOnlyAndTheBiasIsALevel) {
     r.error.add({Kind::measured, 1, 10, unknown, known});
     r.biased.noise.add({Kind::estimated, 1, 10, known, unknown});
     r.bias_rmse = known;
-    const Plot rmse = integrator_plot(r, BiasedIntegrator::Kind::photon_map, ErrorMetric::rmse),
-               relmse = integrator_plot(r, BiasedIntegrator::Kind::photon_map, ErrorMetric::relmse);
+    const Plot rmse = integrator_plot(r, ComparisonIntegrator::Kind::photon_map, ErrorMetric::rmse),
+               relmse = integrator_plot(r, ComparisonIntegrator::Kind::photon_map, ErrorMetric::relmse);
     ASSERT_EQ(rmse.curves.size(), 4u);
     EXPECT_EQ(rmse.curves[1].name, "Photon map");
     EXPECT_EQ(rmse.curves[0].points.size(), 1u);
