@@ -35,7 +35,8 @@ KernelContext Renderer::State::replacement_context() const {
 }
 
 bool Renderer::State::prepare_replacement(const Wanted& wanted) {
-    if (!replacement || replacement_is_ready) return true;
+    if (!replacement || (replacement_is_ready && replacement_origin == scene.origin())) return true;
+    replacement_origin = scene.origin();
     replacement_is_ready = replacement->prepare({replacement_context(), workers, replays, wanted, scene.bounding_sphere()});
     return replacement_is_ready;
 }

@@ -53,6 +53,7 @@ struct Renderer::State {
     EdgeChoice edges;                             // likewise, as the next
     std::unique_ptr<PathReplacement> replacement; // of an integrator for comparison; null: path tracing
     bool replacement_is_ready = false;
+    Vec3d replacement_origin{0, 0, 0};   // that its positions are relative to
     int max_bounces = unlimited_bounces; // as asked for; those of `settings` are fewer for an integrator for comparison
     LearnedSampling learned;
     std::optional<SmallHighlights> highlights;         // of the scene and settings; empty: not searched for
@@ -144,7 +145,8 @@ struct Renderer::State {
 
     void clear() {
         film_is_stale = true;
-        film_is_uneven = replacement_is_ready = false;
+        film_is_uneven = false;
+        replacement_is_ready = replacement_is_ready && options.integrator.baked;
         first_is_rough = first_as_others = first_is_trained = false;
         feature_report.reset();
         samples = loaded_first = 0;
@@ -203,6 +205,7 @@ struct Renderer::State {
     bool needs_highlights() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     void collect_counts(const TickRate& rate);
+    bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }
 
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {

@@ -253,9 +253,10 @@ void add_integrator_option(CLI::App& app, RenderOptions& o) {
         "Path tracing or, for comparison, another integrator: direct light with ambient light and occlusion, an irradiance cache, "
         "light probes or a photon map, which are biased, progressive photon mapping, which is consistent, or bidirectional path tracing or "
         "Metropolis light transport, which are unbiased [path]")
-        ->type_name("path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N]|light-probes[,grid=N][,rays=N]|"
-                    "photon-map[,photons=N][,radius=M|auto][,gather=N]|progressive-photon-map[,photons=N][,radius=M|auto][,alpha=A]|"
-                    "bidirectional|metropolis[,large=P][,chain=N]");
+        ->type_name(
+            "path|ambient[,color=R:G:B|auto][,distance=M]|irradiance-cache[,a=A][,rays=N][,baked]|light-probes[,grid=N][,rays=N][,baked]|"
+            "photon-map[,photons=N][,radius=M|auto][,gather=N][,baked]|progressive-photon-map[,photons=N][,radius=M|auto][,alpha=A]|"
+            "bidirectional|metropolis[,large=P][,chain=N]");
 }
 
 void add_render_options(CLI::App& app, RenderOptions& options) {

@@ -51,6 +51,7 @@ struct IntegratorRender {
 
 struct IntegratorComparison::State {
     RendererOptions options;
+    ComparisonIntegrator integrator; // of `biased`
     IntegratorRender path, biased;
     IntegratorReport report;
 
@@ -90,8 +91,9 @@ void IntegratorComparison::begin(const Scene& scene, const RenderSettings& setti
     State& s = *state_;
     RenderSettings small = plain_lab_settings(settings, longest);
     s.path.timed.begin(s.options, scene, small);
-    // The integrator of a renderer cannot change.
-    s.biased = {};
+    // The integrator of a renderer cannot change. One that is baked keeps what it has prepared.
+    if (!integrator.baked || integrator != s.integrator) s.biased = {};
+    s.integrator = integrator;
     RendererOptions own = s.options;
     own.integrator = integrator;
     ++small.seed;

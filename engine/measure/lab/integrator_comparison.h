@@ -48,7 +48,8 @@ public:
     explicit IntegratorComparison(const RendererOptions& options);
     ~IntegratorComparison();
 
-    // Restarts. The image is scaled to at most `longest` pixels on its longer side. Throws as Renderer::update does.
+    // Restarts; what a baked integrator has prepared for the scene before stays. The image is scaled to at most `longest` pixels on its
+    // longer side. Throws as Renderer::update does.
     void begin(const Scene& scene, const RenderSettings& settings, const ComparisonIntegrator& integrator, int longest = 240);
     // Each integrator renders until it has had the time of this round, in whole samples of all pixels, in an order that changes between
     // rounds. What one spends on its preparation the other spends on samples. False if `wanted` (called often, from many threads) returned

@@ -86,20 +86,24 @@ Result<ComparisonIntegrator> parse_integrator(std::string_view text) {
                                          "progressive-photon-map, bidirectional or metropolis, not \"{}\"",
                                          parts[0])};
     for (size_t i = 1; i < parts.size(); ++i) {
+        if (parts[i] == "baked" && integrator.can_be_baked()) {
+            integrator.baked = true;
+            continue;
+        }
         const size_t equals = parts[i].find('=');
         if (equals == std::string_view::npos || !parse_knob(parts[i].substr(0, equals), parts[i].substr(equals + 1), integrator))
             return Error{.what = fmt::format("integrator {}: \"{}\" is not an option, or out of range (ambient: color=R:G:B or auto, "
                                              "distance=M; irradiance-cache: a=0..1, rays=1..1024; light-probes: grid=1..64, rays=1..1024; "
                                              "photon-map: photons=1..1e8, "
                                              "radius=M or auto, gather=0..1024; progressive-photon-map: photons, radius, alpha=0..1; "
-                                             "metropolis: large=0..1, chain=1..1e6)",
+                                             "metropolis: large=0..1, chain=1..1e6; irradiance-cache, light-probes and photon-map: baked)",
                                              parts[0], parts[i])};
     }
     return integrator;
 }
 
 std::string to_string(const ComparisonIntegrator& i) {
-    const std::string name(name_of(i.kind).name);
+    const std::string name(name_of(i.kind).name), baked = i.baked ? ",baked" : "";
     const int rays = i.rays > 0 ? i.rays : i.default_rays();
     const std::string radius = i.radius > 0 ? fmt::format("{}", i.radius) : "auto";
     switch (i.kind) {
@@ -107,12 +111,12 @@ std::string to_string(const ComparisonIntegrator& i) {
     case Kind::ambient:
         return i.automatic_color ? fmt::format("{},color=auto,distance={}", name, i.distance)
                                  : fmt::format("{},color={}:{}:{},distance={}", name, i.color.x, i.color.y, i.color.z, i.distance);
-    case Kind::irradiance_cache: return fmt::format("{},a={},rays={}", name, i.accuracy, rays);
-    case Kind::photon_map: return fmt::format("{},photons={},radius={},gather={}", name, i.photons_per_pass(), radius, i.gather);
+    case Kind::irradiance_cache: return fmt::format("{},a={},rays={}{}", name, i.accuracy, rays, baked);
+    case Kind::photon_map: return fmt::format("{},photons={},radius={},gather={}{}", name, i.photons_per_pass(), radius, i.gather, baked);
     case Kind::progressive_photon_map: return fmt::format("{},photons={},radius={},alpha={}", name, i.photons_per_pass(), radius, i.alpha);
     case Kind::metropolis: return fmt::format("{},large={},chain={}", name, i.large_steps, i.chain);
     case Kind::bidirectional: break;
-    case Kind::light_probes: return fmt::format("{},grid={},rays={}", name, i.grid, rays);
+    case Kind::light_probes: return fmt::format("{},grid={},rays={}{}", name, i.grid, rays, baked);
     }
     return name;
 }

@@ -38,19 +38,24 @@ struct ComparisonIntegrator {
     int chain = 4096;         // metropolis: mutations in a chain
     int grid = 12;            // light_probes: cells along each axis of the scene's bounds
 
+    // What is prepared before the first sample, records, probes or photons, is kept when the scene changes, as baked light is.
+    bool baked = false;
+
     static constexpr int max_rays = 1024, max_grid = 64, max_photons = 100000000,
                          max_chain = 1000000; // max_rays: of `rays` and of `gather`
     static constexpr float max_accuracy = 1;
 
     int default_photons() const { return kind == Kind::progressive_photon_map ? 100000 : 1000000; }
     int photons_per_pass() const { return photons > 0 ? photons : default_photons(); }
+    // True for integrators that prepare something once.
+    bool can_be_baked() const { return kind == Kind::irradiance_cache || kind == Kind::light_probes || kind == Kind::photon_map; }
     int default_rays() const { return kind == Kind::light_probes ? 192 : 256; }
     bool operator==(const ComparisonIntegrator&) const = default;
 };
 
 // "path", "ambient,color=R:G:B|auto,distance=M", "irradiance-cache,a=A,rays=N", "light-probes,grid=N,rays=N",
 // "photon-map,photons=N,radius=M|auto,gather=N", "progressive-photon-map,photons=N,radius=M|auto,alpha=A", "bidirectional",
-// "metropolis,large=P,chain=N".
+// "metropolis,large=P,chain=N"; ",baked" behind those that can be.
 Result<ComparisonIntegrator> parse_integrator(std::string_view text);
 std::string to_string(const ComparisonIntegrator& integrator);
 // Why its images are biased, for people.

@@ -37,6 +37,8 @@ public:
     // True if each sample needs a preparation of its own: samples are then rendered one after the other.
     virtual bool prepares_samples() const { return false; }
     virtual bool prepare_sample(int64_t /*sample*/, const PreparationContext& /*context*/) { return true; }
+    // True if pixels of a sample share random numbers, so that their errors are correlated.
+    virtual bool correlates_pixels() const { return false; }
     // Adds the radiance of the job's paths to `tile`. `context` has all bounces; `scratch` is memory. Thread-safe with one for each thread.
     virtual void add(const KernelContext& /*context*/, const TileJob& /*job*/, TileScratch& /*tile*/, TileScratch& /*scratch*/) const {}
     // True if each sample of the image has a pass that adds radiance to any of its pixels.

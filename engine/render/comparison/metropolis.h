@@ -13,6 +13,7 @@ public:
     int traced_bounces() const override { return 0; }
     bool prepare(const PreparationContext& context) override;
     bool splats() const override { return true; }
+    bool correlates_pixels() const override { return true; } // by states of a chain
     // As many mutations as the image has pixels.
     bool trace_pass(int64_t sample, const PreparationContext& context, std::vector<std::vector<Splat>>& tiles) override;
     size_t memory_bytes() const override { return scene_.emission().memory_bytes(); }

@@ -16,6 +16,7 @@ public:
     int traced_bounces() const override { return 0; }
     bool prepare(const PreparationContext& context) override;
     bool prepares_samples() const override { return true; }
+    bool correlates_pixels() const override { return true; } // by photons
     bool prepare_sample(int64_t sample, const PreparationContext& context) override;
     void add(const KernelContext& context, const TileJob& job, TileScratch& tile, TileScratch& scratch) const override;
     size_t memory_bytes() const override { return photons_.memory_bytes(); }

@@ -68,6 +68,17 @@ ReuseCovariance measure_sampler_covariance(const Film& film) {
     return {.means = std::max(1.0, ratios_of_blocks(film, {.block_width = side, .block_height = side}).blocks)};
 }
 
+ReuseCovariance measure_block_covariance(const Film& film) {
+    constexpr int min_blocks = 16;
+    ReuseCovariance shared;
+    for (int side = 1 << block_bits; (film.width() / side) * (film.height() / side) >= min_blocks; side *= 2) {
+        const double ratio = ratios_of_blocks(film, {.block_width = side, .block_height = side}).blocks;
+        shared.means = std::max(shared.means, ratio);
+        shared.products = std::max(shared.products, 1 + (ratio - 1) * (ratio - 1) / (double(side) * double(side)));
+    }
+    return shared;
+}
+
 ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers) {
     return film.estimate_error(workers, reuse > 1 ? measure_reuse_covariance(film, reuse_groups(reuse)).products : 1);
 }

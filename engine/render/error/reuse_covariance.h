@@ -1,4 +1,4 @@
-// Covariance between pixels caused by path reuse and by the sampler, measured from the halves of the film.
+// Covariance between pixels caused by path reuse, by the sampler and by integrators for comparison, measured from the halves of the film.
 #pragma once
 
 #include "render/integrator/reuse_groups.h"
@@ -25,6 +25,10 @@ ReuseCovariance measure_reuse_covariance(const Film& film, const ReuseGroups& gr
 // Without path reuse: of the blocks of pixels with complementary points (core/sampler.h). Their errors mostly cancel, and count as
 // independent then. What only two or more pairs of dimensions together explain may add up instead, by up to a half.
 ReuseCovariance measure_sampler_covariance(const Film& film);
+
+// Of integrators for comparison whose pixels share photons or states of a Markov chain, at any distance: the largest of
+// blocks of 8 x 8 pixels, 16 x 16 and so on, as long as there are enough of them to tell.
+ReuseCovariance measure_block_covariance(const Film& film);
 
 // For a film rendered with `reuse` pixels per group.
 ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers);

@@ -76,6 +76,30 @@ TEST(IntegratorComparison, ErrorFlattensWhereTheBiasBegins) {
     EXPECT_LT(r.path.noise_error(ErrorMetric::rmse).value, r.path.noise.points().front().rmse.value);
 }
 
+// A room whose lamp is switched off after probes were made: baked, they still hold its light.
+TEST(IntegratorComparison, BakedLightGoesStaleWhenTheSceneChanges) {
+    Scene room;
+    place(room, cube(true), lambert(0.5f));
+    room.view = looking({0, 0, 0.9f}, {0, 0, 0}, 1);
+    Scene bright = room, dim = room;
+    place_light(bright, {.kind = Light::Kind::point, .intensity = 5}, at({0, 0.5f, 0}));
+    place_light(dim, {.kind = Light::Kind::point, .intensity = 1}, at({0, 0.5f, 0}));
+    // Indirect light is near half of all here: five times as much of it makes the image far too bright.
+    const auto excess = [&](const std::string& integrator) {
+        IntegratorComparison lab({.threads = 1});
+        compare(lab, bright, integrator, 1);
+        return compare(lab, dim, integrator, 2).verdict.whole.percent();
+    };
+    EXPECT_GT(excess("light-probes,grid=2,baked"), 50);
+    EXPECT_LT(excess("light-probes,grid=2"), 50);
+    EXPECT_GT(excess("irradiance-cache,baked"), 50);
+    EXPECT_GT(excess("photon-map,photons=20000,baked"), 50);
+    // Another integrator prepares anew.
+    IntegratorComparison lab({.threads = 1});
+    compare(lab, bright, "light-probes,grid=2,baked", 1);
+    EXPECT_LT(compare(lab, dim, "light-probes,grid=3,baked", 2).verdict.whole.percent(), 50);
+}
+
 // Without records the irradiance cache traces paths.
 TEST(IntegratorComparison, DoesNotInventABias) {
     IntegratorComparison lab({.threads = 1});

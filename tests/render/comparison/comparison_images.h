@@ -17,19 +17,23 @@ inline std::unique_ptr<Renderer> integrator_renderer(const Scene& scene, const R
     return renderer;
 }
 
-inline Frame integrator_frame(const Scene& scene, const RenderSettings& settings, const std::string& integrator, unsigned threads = 2) {
-    const auto renderer = integrator_renderer(scene, settings, integrator, threads);
+// After the samples of the settings.
+inline std::unique_ptr<Renderer> integrator_render(const Scene& scene, const RenderSettings& settings, const std::string& integrator,
+                                                   unsigned threads = 2) {
+    auto renderer = integrator_renderer(scene, settings, integrator, threads);
     renderer->render(0, settings.spp);
-    return renderer->resolve();
+    return renderer;
+}
+
+inline Frame integrator_frame(const Scene& scene, const RenderSettings& settings, const std::string& integrator, unsigned threads = 2) {
+    return integrator_render(scene, settings, integrator, threads)->resolve();
 }
 
 // Means of the whole image over seeds.
 inline Measured integrator_mean(const Scene& scene, RenderSettings settings, const std::string& integrator, uint32_t seeds = 16) {
     BlockMoments moments;
     for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
-        const auto renderer = integrator_renderer(scene, settings, integrator);
-        renderer->render(0, settings.spp);
-        const Measured image = image_of(*renderer).whole();
+        const Measured image = image_of(*integrator_render(scene, settings, integrator)).whole();
         moments.add({&image, 1});
     }
     return moments.measured()[0];

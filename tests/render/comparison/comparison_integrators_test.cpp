@@ -15,12 +15,6 @@ using namespace statistics;
 
 ComparisonIntegrator integrator(const std::string& text) { return *parse_integrator(text); }
 
-std::unique_ptr<Renderer> rendered(const Scene& scene, const RenderSettings& settings, const std::string& text) {
-    auto renderer = integrator_renderer(scene, settings, text);
-    renderer->render(0, settings.spp);
-    return renderer;
-}
-
 // Walls that emit 1 nit and reflect half: radiance 1 / (1 - 0.5) everywhere.
 Scene glowing_room() {
     Scene scene = glowing_walls();
@@ -41,7 +35,7 @@ TEST(IrradianceCache, IsRightWhereIndirectLightIsEven) {
     for (uint32_t seed = 0; seed < 16; ++seed) {
         RenderSettings settings = settings_for(16, 16, 4);
         settings.seed = seed;
-        const auto renderer = rendered(room, settings, "irradiance-cache,rays=64");
+        const auto renderer = integrator_render(room, settings, "irradiance-cache,rays=64");
         const Measured whole = image_of(*renderer).whole();
         moments.add({&whole, 1});
     }
@@ -51,10 +45,10 @@ TEST(IrradianceCache, IsRightWhereIndirectLightIsEven) {
 TEST(IrradianceCache, WithoutRecordsIsUnbiased) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(48, 48, 64);
-    const MeasuredImage without = measured_image(*rendered(scene, settings, "irradiance-cache,a=0"));
+    const MeasuredImage without = measured_image(*integrator_render(scene, settings, "irradiance-cache,a=0"));
     settings.seed = 1;
     settings.spp = 512;
-    const BiasTest test = test_bias(without, measured_image(*rendered(scene, settings, "path")));
+    const BiasTest test = test_bias(without, measured_image(*integrator_render(scene, settings, "path")));
     EXPECT_FALSE(test.biased) << test.worst.percent() << " % at z " << test.worst.z();
 }
 
@@ -64,7 +58,7 @@ Measured wall(const Scene& room, const std::string& text) {
     for (uint32_t seed = 0; seed < 16; ++seed) {
         RenderSettings settings = settings_for(8, 8, 8);
         settings.seed = seed;
-        const Measured whole = image_of(*rendered(room, settings, text)).whole();
+        const Measured whole = image_of(*integrator_render(room, settings, text)).whole();
         moments.add({&whole, 1});
     }
     return moments.measured()[0];
@@ -141,12 +135,12 @@ TEST(ComparisonIntegrators, AreCaughtAsBiased) {
     const Scene scene = shipped_scene("cornell");
     RenderSettings settings = settings_for(64, 64, 4096);
     settings.seed = 1;
-    const MeasuredImage reference = measured_image(*rendered(scene, settings, "path"));
+    const MeasuredImage reference = measured_image(*integrator_render(scene, settings, "path"));
     settings.seed = 0;
     settings.spp = 512;
-    EXPECT_FALSE(test_bias(measured_image(*rendered(scene, settings, "path")), reference).biased);
+    EXPECT_FALSE(test_bias(measured_image(*integrator_render(scene, settings, "path")), reference).biased);
     for (const char* text : {"ambient", "light-probes", "irradiance-cache", "photon-map"})
-        EXPECT_TRUE(test_bias(measured_image(*rendered(scene, settings, text)), reference).biased) << text;
+        EXPECT_TRUE(test_bias(measured_image(*integrator_render(scene, settings, text)), reference).biased) << text;
 }
 
 TEST(ComparisonIntegrators, DoNotDependOnThreads) {
@@ -164,7 +158,7 @@ TEST(ComparisonIntegrators, FollowTheLimitOfBounces) {
     for (const char* text : {"ambient", "light-probes,grid=2", "irradiance-cache,rays=16", "photon-map,photons=10000"})
         EXPECT_EQ(integrator_frame(scene, settings, text).rgba, integrator_frame(scene, settings, "path").rgba) << text;
     // The same renderer after an edit of the limit alone.
-    const auto renderer = rendered(scene, settings, "irradiance-cache,rays=16");
+    const auto renderer = integrator_render(scene, settings, "irradiance-cache,rays=16");
     settings.max_bounces = unlimited_bounces;
     EXPECT_TRUE(renderer->update(scene, settings));
     renderer->render(0, 2);
@@ -192,9 +186,9 @@ TEST(AmbientLight, IsOccludedWithinItsDistance) {
     scene.view = looking({0, 1, 0}, {0, 0, 0.001f}, 0.5f);
     const RenderSettings settings = settings_for(16, 16, 64);
     // Rays reach the ceiling within 4 m if their cosine is at least 2 / 4: a share of 1 - 0.25 of the cosine distribution.
-    const Measured dim = image_of(*rendered(scene, settings, "ambient,color=1:1:1,distance=4")).whole();
+    const Measured dim = image_of(*integrator_render(scene, settings, "ambient,color=1:1:1,distance=4")).whole();
     EXPECT_TRUE(is_mean(dim, 0.25));
-    EXPECT_FLOAT_EQ(float(image_of(*rendered(scene, settings, "ambient,color=1:1:1,distance=1.9")).whole().mean.x), 1);
+    EXPECT_FLOAT_EQ(float(image_of(*integrator_render(scene, settings, "ambient,color=1:1:1,distance=1.9")).whole().mean.x), 1);
 }
 
 // Integrals of products over the sphere, by the midpoint rule in cos(theta) and phi, which is exact for polynomials of this degree in phi.
@@ -226,7 +220,8 @@ TEST(ComparisonIntegrators, AreReadAndWritten) {
     for (const char* text :
          {"path", "ambient,color=auto,distance=1", "ambient,color=0.1:0.2:0.3,distance=2.5", "irradiance-cache,a=0.1,rays=32",
           "light-probes,grid=3,rays=12", "photon-map,photons=1000,radius=auto,gather=0", "photon-map,photons=7,radius=0.25,gather=4",
-          "progressive-photon-map,photons=7,radius=auto,alpha=0.5"})
+          "progressive-photon-map,photons=7,radius=auto,alpha=0.5", "bidirectional", "metropolis,large=0.5,chain=100",
+          "light-probes,grid=3,rays=12,baked", "irradiance-cache,a=0.1,rays=32,baked"})
         EXPECT_EQ(to_string(integrator(text)), text);
     for (const char* text : {"",
                              "photons",
@@ -249,6 +244,12 @@ TEST(ComparisonIntegrators, AreReadAndWritten) {
                              "progressive-photon-map,alpha=0",
                              "progressive-photon-map,gather=1",
                              "light-probes,grid",
+                             "bidirectional,large=0.5",
+                             "bidirectional,baked",
+                             "ambient,baked",
+                             "metropolis,large=0",
+                             "metropolis,large=1.5",
+                             "metropolis,chain=0",
                              "light-probes,"})
         EXPECT_FALSE(parse_integrator(text)) << text;
 }

@@ -91,9 +91,7 @@ TEST(Metropolis, AgreesWithPathTracingInEachBlock) {
         BlockMoments moments;
         RenderSettings settings = settings_for(24, 24, spp);
         for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
-            const auto renderer = integrator_renderer(scene, settings, integrator);
-            renderer->render(0, spp);
-            moments.add(image_of(*renderer).blocks(8, 8));
+            moments.add(image_of(*integrator_render(scene, settings, integrator)).blocks(8, 8));
         }
         return moments.measured();
     };

@@ -87,6 +87,24 @@ TEST(ProgressivePhotonMap, AgreesWithPathTracingForEachKindOfSurface) {
     }
 }
 
+// Pixels share photons: what they have in common counts in the error of a region's mean.
+TEST(ProgressivePhotonMap, BiasTestKnowsThatPixelsSharePhotons) {
+    const Scene scene = glowing_walls();
+    RenderSettings settings = settings_for(64, 64, 1024);
+    settings.seed = 1000;
+    const MeasuredImage reference = measured_image(*integrator_render(scene, settings, "path"));
+    settings.spp = 8;
+    int rejected = 0, rejected_as_independent = 0;
+    for (settings.seed = 0; settings.seed < 20; ++settings.seed) {
+        MeasuredImage image = measured_image(*integrator_render(scene, settings, "progressive-photon-map,photons=5000,radius=0.05"));
+        rejected += test_bias(image, reference).biased;
+        image.variance_factor = 1;
+        rejected_as_independent += test_bias(image, reference).biased;
+    }
+    EXPECT_LE(rejected, 3); // of 20 at a level of 0.01, 4 are rejected with probability 4e-5
+    EXPECT_GT(rejected_as_independent, 10);
+}
+
 TEST(ProgressivePhotonMap, DoesNotDependOnHowSamplesAreSplit) {
     const Scene scene = shipped_scene("cornell");
     const RenderSettings settings = settings_for(16, 16, 4);

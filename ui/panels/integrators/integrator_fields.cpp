@@ -38,9 +38,9 @@ std::vector<IntegratorKnob> integrator_knobs(const ComparisonIntegrator& i) {
     case Kind::none: break;
     case Kind::ambient:
         return i.automatic_color ? std::vector{ao_distance, automatic_color} : std::vector{ao_distance, automatic_color, color};
-    case Kind::irradiance_cache: return {accuracy, rays};
-    case Kind::light_probes: return {grid, rays};
-    case Kind::photon_map: return {photons, radius, gather_rays};
+    case Kind::irradiance_cache: return {accuracy, rays, baked};
+    case Kind::light_probes: return {grid, rays, baked};
+    case Kind::photon_map: return {photons, radius, gather_rays, baked};
     case Kind::progressive_photon_map: return {photons, radius, alpha};
     case Kind::bidirectional: break;
     case Kind::metropolis: return {large_steps, chain};
@@ -97,6 +97,12 @@ void draw_integrator_knob(Fields& f, ComparisonIntegrator& i, IntegratorKnob kno
                   .bar = true,
                   .tip = "Share of the mutations that are new paths. The others change a path a little.",
                   .format = "%.2f"});
+        return;
+    case baked:
+        f.checkbox(
+            "Baked", i.baked,
+            "Keeps the records, probes or photons when the scene is edited: they go stale, as baked light does. Switch it off to make "
+            "them anew.");
         return;
     case chain:
         return integer(f, "Chain", i.chain, 1, ComparisonIntegrator::max_chain, defaults.chain,

@@ -20,7 +20,8 @@ enum class IntegratorKnob {
     gather_rays,
     alpha,
     large_steps,
-    chain
+    chain,
+    baked
 };
 
 // Those that this integrator has now.
