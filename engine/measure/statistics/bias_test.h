@@ -27,7 +27,8 @@ struct RegionBias {
     double error = 0;                        // standard error of their difference
     double degrees = 0;                      // degrees of freedom of that error
     double possible_deficit = 0;             // possible deficit of the mean due to rare bright samples that were not found
-    // The difference after subtraction of `unseen`.
+    double possible_excess = 0;              // the same deficit of the reference
+    // The difference without what such samples explain.
     double difference() const;
     // Normal deviate with the same p-value as the difference.
     double z() const;
@@ -62,9 +63,11 @@ constexpr double bias_significance = 0.01;
 // of freedom by Satterthwaite (1946) accounts for the uncertainty of the variance.
 //
 // If rare bright samples carry the light (small or nearby lights), means are mostly too dark, and no statistic of an image
-// without such samples shows it. `unseen` bounds the deficit: -log(level) samples as bright as the brightest nearby, the number
-// for which seeing none is as unlikely as the level of the test. A smaller deficit is not reported as bias. Only the excess of
-// the brightest over the expected maximum of normal noise counts, so that the bound is 0 for normal noise.
+// without such samples shows it. `possible_deficit` bounds the deficit: -log(level) samples as bright as the brightest nearby, the
+// number for which seeing none is as unlikely as the level of the test. A smaller deficit is not reported as bias. Only the excess of
+// the brightest over the expected maximum of normal noise counts, so that the bound is 0 for normal noise. A reference that is no better
+// than the image misses such samples as well: then the image is too bright, by at most
+// `possible_excess`, and pooled by an unknown amount, as its weights are largest where the reference misses them.
 //
 // Differences below `rounding` times the reference's mean are treated as float rounding. Returns an empty result if sizes differ
 // or are 0.

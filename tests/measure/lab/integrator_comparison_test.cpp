@@ -90,14 +90,14 @@ TEST(IntegratorComparison, BakedLightGoesStaleWhenTheSceneChanges) {
         compare(lab, bright, integrator, 1);
         return compare(lab, dim, integrator, 2).verdict.whole.percent();
     };
-    EXPECT_GT(excess("light-probes,grid=2,baked"), 50);
-    EXPECT_LT(excess("light-probes,grid=2"), 50);
+    EXPECT_GT(excess("light-probes,grid=8,baked"), 50);
+    EXPECT_LT(excess("light-probes,grid=8"), 50);
     EXPECT_GT(excess("irradiance-cache,baked"), 50);
     EXPECT_GT(excess("photon-map,photons=20000,baked"), 50);
     // Another integrator prepares anew.
     IntegratorComparison lab({.threads = 1});
-    compare(lab, bright, "light-probes,grid=2,baked", 1);
-    EXPECT_LT(compare(lab, dim, "light-probes,grid=3,baked", 2).verdict.whole.percent(), 50);
+    compare(lab, bright, "light-probes,grid=8,baked", 1);
+    EXPECT_LT(compare(lab, dim, "light-probes,grid=9,baked", 2).verdict.whole.percent(), 50);
 }
 
 // Without records the irradiance cache traces paths.

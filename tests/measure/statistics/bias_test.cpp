@@ -145,6 +145,26 @@ TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
 }
 
+// The same with both exchanged: the reference has missed the light, and the image is no better known.
+TEST(BiasTest, RareBrightLightThatTheReferenceMissesIsNotBias) {
+    std::mt19937 bits(11);
+    constexpr int events = 3 * 16;
+    constexpr float bright = 0.05f * side * side / events;
+    std::poisson_distribution<int> count(events);
+    std::uniform_int_distribution<size_t> place(0, size_t(side) * side - 1);
+    Moments wrong;
+    for (int run = 0; run < 500; ++run) {
+        MeasuredImage reference = noisy(bits, 0.02f, 64, even);
+        for (int left = count(bits); left > 0; --left) {
+            const size_t i = place(bits);
+            reference.image.pixels[i].x += bright, reference.image.pixels[i].y += bright, reference.image.pixels[i].z += bright;
+            reference.error[i] = {bright, bright, bright};
+        }
+        wrong.add(test_bias(noisy(bits, 0.001f, 64, [](int, int) { return 0.55f; }), reference).biased);
+    }
+    EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
+}
+
 // One pixel in which an image has nothing and the reference by chance a
 // firefly, of which its own error knows nothing.
 TEST(BiasTest, OnePixelIsNotSignificant) {

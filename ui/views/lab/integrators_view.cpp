@@ -75,7 +75,7 @@ std::string integrator_verdict(const IntegratorReport& r) {
 }
 
 std::string integrator_bias_text(const IntegratorReport& r, ComparisonIntegrator::Kind kind, ErrorMetric metric) {
-    if (verdict_of(kind) == "unbiased") return "Unbiased: its error is noise, which falls with the samples.";
+    if (verdict_of(kind) == "unbiased") return "Unbiased by construction: its error is noise, which falls with the samples.";
     const Interval& b = r.bias(metric);
     if (!b.known) return fmt::format("Bias as {}: hidden by noise so far.", name_of(metric));
     return fmt::format("Bias as {}: {:.3g} ({:.3g} to {:.3g}) {}.", name_of(metric), b.value, b.low, b.high,
@@ -98,7 +98,7 @@ Plot integrator_plot(const IntegratorReport& r, ComparisonIntegrator::Kind kind,
     noise.line = PlotCurve::Line::dotted;
     noise.dots = PlotCurve::Dots::hollow;
     plot.curves.push_back(std::move(noise));
-    if (const Interval& b = r.bias(metric); b.known) plot.levels.push_back({b.value, "bias"});
+    if (const Interval& b = r.bias(metric); b.known && verdict_of(kind) != "unbiased") plot.levels.push_back({b.value, "bias"});
     const PlotCurve& path = plot.curves.front();
     plot.curves.push_back(plot_guide(plot, metric == ErrorMetric::rmse ? -0.5 : -1, "", path.points.empty() ? nullptr : &path));
     return plot;

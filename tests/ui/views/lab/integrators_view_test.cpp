@@ -73,7 +73,7 @@ TEST(IntegratorsView, BiasIsSaidOrHidden) {
     EXPECT_EQ(integrator_bias_text(r, ComparisonIntegrator::Kind::progressive_photon_map, ErrorMetric::relmse),
               "Bias as relMSE: 0.0123 (0.012 to 0.0126) so far, and falls with the samples.");
     EXPECT_EQ(integrator_bias_text(r, ComparisonIntegrator::Kind::metropolis, ErrorMetric::relmse),
-              "Unbiased: its error is noise, which falls with the samples.");
+              "Unbiased by construction: its error is noise, which falls with the samples.");
 }
 
 TEST(IntegratorsView, SamplesThatAreLeftOutAreSaid) {
