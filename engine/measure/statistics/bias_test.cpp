@@ -79,7 +79,7 @@ private:
     }
 
     // Excess of the brightest pixel of a region and its neighbours over the reference, beyond normal noise; with sign -1 of the reference
-    // over the image.
+    // over the image, as far as the reference is noisy there: the rest is a difference that its noise does not explain.
     double brightest_around(const Rectangle& r, double sign) const {
         const int w = r.right - r.left, h = r.bottom - r.top;
         const Rectangle around{std::max(0, r.left - w), std::max(0, r.top - h), std::min(image_.image.width, r.right + w),
@@ -88,7 +88,7 @@ private:
         for_each_pixel(around, [&](size_t i) {
             const double weight = weights_[i], off = weight * difference(i);
             const double a = weight * luminance(to_double(image_.error[i])), b = weight * luminance(to_double(reference_.error[i]));
-            brightest = std::max(brightest, sign * off);
+            brightest = std::max(brightest, sign > 0 ? off : std::min(-off, b));
             own += a * a + b * b;
             seen += off * off;
         });
