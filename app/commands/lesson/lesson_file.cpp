@@ -310,7 +310,7 @@ Result<RenderOptions> options_of_step(const LessonStep& step) {
 }
 
 Result<RenderOptions> options_with(const LessonStep& step, const std::string& setting, const std::string& value) {
-    // The image of a step is path traced; a claim may compare it with a biased integrator.
+    // The image of a step is path traced; a claim may compare it with another integrator.
     if (setting == "integrator") {
         const Result<ComparisonIntegrator> integrator = parse_integrator(value);
         if (!integrator) return integrator.error();

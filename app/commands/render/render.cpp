@@ -89,11 +89,12 @@ Result<Plan> plan_of(const RenderCommand& c) {
         if (!layers) return layers.error();
         plan.layers = *layers;
     }
-    const bool biased = c.options.integrator.kind != ComparisonIntegrator::Kind::none;
+    const bool comparison = c.options.integrator.kind != ComparisonIntegrator::Kind::none;
     const Layers& l = plan.layers;
-    if (biased && (l.film || l.groups || l.bounces > 0 || l.strategies || !c.begun.empty() || c.options.samples_given || !c.pixel.empty()))
+    if (comparison &&
+        (l.film || l.groups || l.bounces > 0 || l.strategies || !c.begun.empty() || c.options.samples_given || !c.pixel.empty()))
         return Error{.what = "--integrator excludes --continue, --samples, --pixel and the layers film, groups, bounces and strategies"};
-    if (biased && plan.settings.clamp.limit > 0) return Error{.what = "--integrator and --clamp exclude each other"};
+    if (comparison && plan.settings.clamp.limit > 0) return Error{.what = "--integrator and --clamp exclude each other"};
     if (!c.pixel.empty()) {
         const Result<PixelRequest> pixel = parse_pixel(c.pixel, plan.settings);
         if (!pixel) return pixel.error();

@@ -81,6 +81,11 @@ double BidirectionalPaths::reverse_density(const Vertex& v, const Vec3& wi) cons
     return double(view.value.pdf) / double(v.cos_wo);
 }
 
+double BidirectionalPaths::nee_density(const Vertex& v, const Vec3& wi, const EmissionPoint<float>& at) const {
+    const Receiver<float> to = scatter_setup<s, float>(*context_.scene, v.p.material, point_of(v)).receiver;
+    return double(nee_pdf<s, float>(*context_.scene, to, at, true)) / double(clamped_cosine<float>(v.p.shading.ng, wi));
+}
+
 Vec3 BidirectionalPaths::colored(const Vec3& radiance, bool dispersed) const {
     return dispersed ? radiance * wavelength_of(sampler_).rgb : radiance;
 }
@@ -92,10 +97,10 @@ void BidirectionalPaths::add(const Vec3& radiance, int scatterings, int32_t ligh
     out_->push_back({pixel, radiance, uint16_t(std::min(scatterings, 65535)), uint16_t(groups && light >= 0 ? groups[light] : 0)});
 }
 
-PathDensities BidirectionalPaths::densities(int strategy, int cameras) const {
+PathDensities BidirectionalPaths::densities(int strategy, int camera_vertices) const {
     PathDensities d;
     const int on_light = std::max(strategy - 1, 0);
-    d.edges = cameras + on_light + 1;
+    d.edges = camera_vertices + on_light + 1;
     d.light_paths = double(context_.scene->emission.paths);
     const int last = std::min(d.edges - 1, PathDensities::size - 1);
     for (int i = 1; i <= last; ++i) {
@@ -210,11 +215,9 @@ void BidirectionalPaths::trace_light_path(RandomPairs& random) {
         v.density = next.density;
         if (bounce == 0) {
             if (scene.links.lit_sets && !is_lit<float>(scene.links, emitted_.light, v.p.surface.part, true)) return;
-            const ShadingPoint<float> p = point_of(v);
             const auto at =
                 emission_point<s, float>(scene, emitted_.light, emitted_.light_position, emitted_.light_normal, v.p.side.wo, true);
-            const Receiver<float> to = scatter_setup<s, float>(scene, v.p.material, p).receiver;
-            emitted_nee_ = double(nee_pdf<s, float>(scene, to, at, true)) / double(v.cos_wo);
+            emitted_nee_ = nee_density(v, v.p.side.wo, at);
         } else {
             const float left = clamped_cosine<float>(from_light_.back().p.shading.ng, path.ray.direction);
             v.geometry = double(left) * double(v.cos_wo) / std::max(double(hit.t) * double(hit.t), 1e-30);
@@ -235,9 +238,7 @@ void BidirectionalPaths::find_light(const Direction& arrived, const Lit& lit, in
         const Vec3& wi = arrived.path.ray.direction;
         const auto at = emission_point<s, float>(scene, lit.light, lit.position, lit.normal, wi, true);
         d.emission = double(emission_density<float>(scene.emission, at, true));
-        const ShadingPoint<float> p = point_of(v);
-        const Receiver<float> to = scatter_setup<s, float>(scene, v.p.material, p).receiver;
-        d.nee = double(nee_pdf<s, float>(scene, to, at, true)) / double(clamped_cosine<float>(v.p.shading.ng, wi));
+        d.nee = nee_density(v, wi, at);
     }
     add(colored(lit.radiance * float(d.weight(0)), v.dispersed), bounce, lit.light);
 }
@@ -330,7 +331,7 @@ void BidirectionalPaths::connect_light(RandomPairs& random, int j) {
     d.toward_camera[1] = reverse_density(v, wi);
     const auto at =
         emission_point<s, float>(scene, light.light, light.infinite ? p.surface.position : light.position, light.normal, wi, true);
-    d.nee = double(nee_pdf<s, float>(scene, setup.receiver, at, true)) / cosine;
+    d.nee = nee_density(v, wi, at);
     d.emission = light.light < scene.emission.lights ? double(emission_density<float>(scene.emission, at, true)) : 0;
     d.light_can_be_hit = !light.delta;
     add(colored(step.direct * float(d.weight(1)), v.dispersed), j + 1, light.light);

@@ -50,7 +50,7 @@ private:
         Vec3 position, normal;
     };
 
-    Hit<float> hit_by(const Path<float>& path, int bounce, uint32_t mask);
+    Hit<float> hit_by(const Path<float>& path, int salt, uint32_t mask);
     bool reaches(const Ray<float>& ray, float distance, int salt, uint32_t mask);
     Vertex vertex_at(const Path<float>& path, const Hit<float>& hit, float width) const;
     void trace_camera_path(RandomPairs& random, const CameraSample& camera);
@@ -58,8 +58,11 @@ private:
     bool extend_camera_path(RandomPairs& random, Vertex& v, int bounce, const Path<float>& arrived, float cone, Direction& next);
     bool extend_light_path(RandomPairs& random, Vertex& v, int bounce, const Path<float>& arrived, Direction& next);
     double reverse_density(const Vertex& v, const Vec3& wi) const;
-    // Densities of a path that is lit by x_0 on the light path's or a given light; endpoints of the connection are the caller's.
-    PathDensities densities(int s, int cameras) const;
+    // Of NEE at `v`, of the point `at` on a light in direction `wi`, over projected solid angle.
+    double nee_density(const Vertex& v, const Vec3& wi, const EmissionPoint<float>& at) const;
+    // Densities of the path that `strategy` makes of the first `camera_vertices` surfaces of the camera path and the first strategy - 1
+    // of the light path. Without those that depend on the connection: of its two ends, and of the light for strategies 0 and 1.
+    PathDensities densities(int strategy, int camera_vertices) const;
     void find_light(const Direction& arrived, const Lit& lit, int bounce);
     void find_background(const Direction& arrived, int bounce);
     void find_emission(const Direction& arrived, const Hit<float>& hit, const Vertex& v, int bounce);

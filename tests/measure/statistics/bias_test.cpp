@@ -35,6 +35,20 @@ template <class Level> MeasuredImage noisy(std::mt19937& bits, float sigma, int6
 }
 float even(int, int) { return 0.5f; }
 
+// Light of 0.05 in the mean over the image that arrives in about 48 of its 4,096 pixels.
+void add_rare_light(std::mt19937& bits, MeasuredImage& image) {
+    constexpr int events = 3 * 16;
+    constexpr float bright = 0.05f * side * side / events;
+    std::poisson_distribution<int> count(events);
+    std::uniform_int_distribution<size_t> place(0, size_t(side) * side - 1);
+    for (int left = count(bits); left > 0; --left) {
+        const size_t i = place(bits);
+        Vec3& pixel = image.image.pixels[i];
+        pixel = {pixel.x + bright, pixel.y + bright, pixel.z + bright};
+        image.error[i] = {bright, bright, bright};
+    }
+}
+
 TEST(BiasTest, FalseAlarmRateIsTheStatedLevel) {
     std::mt19937 bits(1);
     Moments wrong;
@@ -128,18 +142,10 @@ TEST(BiasTest, FewBrightPixelsAreNotSignificant) {
 TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
     std::mt19937 bits(9);
     const MeasuredImage reference = noisy(bits, 0.001f, 100'000, [](int, int) { return 0.55f; });
-    constexpr int events = 3 * 16;
-    constexpr float bright = 0.05f * side * side / events;
-    std::poisson_distribution<int> count(events);
-    std::uniform_int_distribution<size_t> place(0, size_t(side) * side - 1);
     Moments wrong;
     for (int run = 0; run < 500; ++run) {
         MeasuredImage image = noisy(bits, 0.02f, 64, even);
-        for (int left = count(bits); left > 0; --left) {
-            const size_t i = place(bits);
-            image.image.pixels[i].x += bright, image.image.pixels[i].y += bright, image.image.pixels[i].z += bright;
-            image.error[i] = {bright, bright, bright};
-        }
+        add_rare_light(bits, image);
         wrong.add(test_bias(image, reference).biased);
     }
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));
@@ -148,18 +154,10 @@ TEST(BiasTest, RareBrightLightThatIsMissingIsNotBias) {
 // The same with both exchanged: the reference has missed the light, and the image is no better known.
 TEST(BiasTest, RareBrightLightThatTheReferenceMissesIsNotBias) {
     std::mt19937 bits(11);
-    constexpr int events = 3 * 16;
-    constexpr float bright = 0.05f * side * side / events;
-    std::poisson_distribution<int> count(events);
-    std::uniform_int_distribution<size_t> place(0, size_t(side) * side - 1);
     Moments wrong;
     for (int run = 0; run < 500; ++run) {
         MeasuredImage reference = noisy(bits, 0.02f, 64, even);
-        for (int left = count(bits); left > 0; --left) {
-            const size_t i = place(bits);
-            reference.image.pixels[i].x += bright, reference.image.pixels[i].y += bright, reference.image.pixels[i].z += bright;
-            reference.error[i] = {bright, bright, bright};
-        }
+        add_rare_light(bits, reference);
         wrong.add(test_bias(noisy(bits, 0.001f, 64, [](int, int) { return 0.55f; }), reference).biased);
     }
     EXPECT_TRUE(z_test_at_most(wrong, bias_significance));

@@ -5,6 +5,7 @@
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
 
+#include <gtest/gtest.h>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,18 @@ inline std::unique_ptr<Renderer> integrator_render(const Scene& scene, const Ren
 
 inline Frame integrator_frame(const Scene& scene, const RenderSettings& settings, const std::string& integrator, unsigned threads = 2) {
     return integrator_render(scene, settings, integrator, threads)->resolve();
+}
+
+// The Cornell box has the same bits in one go and in parts, with two threads and with one.
+inline void expect_same_bits_in_parts_and_threads(const std::string& integrator) {
+    const Scene scene = shipped_scene("cornell");
+    const RenderSettings settings = settings_for(40, 40, 4);
+    const auto parts = integrator_renderer(scene, settings, integrator);
+    parts->render(0, 1);
+    parts->render(1, 3);
+    const Frame whole = integrator_frame(scene, settings, integrator);
+    EXPECT_EQ(parts->resolve().rgba, whole.rgba);
+    EXPECT_EQ(integrator_frame(scene, settings, integrator, 1).rgba, whole.rgba);
 }
 
 // Means of the whole image over seeds.

@@ -100,16 +100,7 @@ TEST(Metropolis, AgreesWithPathTracingInEachBlock) {
     EXPECT_TRUE(same_means(blocks("bidirectional", 32, 24), path, sidak(significance, 2)));
 }
 
-TEST(Metropolis, DoesNotDependOnThreadsOrParts) {
-    const Scene scene = shipped_scene("cornell");
-    const RenderSettings settings = settings_for(40, 40, 4);
-    const auto parts = integrator_renderer(scene, settings, "metropolis,chain=100");
-    parts->render(0, 1);
-    parts->render(1, 3);
-    const Frame whole = integrator_frame(scene, settings, "metropolis,chain=100");
-    EXPECT_EQ(parts->resolve().rgba, whole.rgba);
-    EXPECT_EQ(integrator_frame(scene, settings, "metropolis,chain=100", 1).rgba, whole.rgba);
-}
+TEST(Metropolis, DoesNotDependOnThreadsOrParts) { expect_same_bits_in_parts_and_threads("metropolis,chain=100"); }
 
 // No light and no surface: nothing to mutate.
 TEST(Metropolis, DarkScenesAreBlack) {
