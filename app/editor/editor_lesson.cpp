@@ -168,7 +168,9 @@ void EditorLesson::show(PanelContext& c, size_t step) {
     c.ui.probe.watch(s.highlight);
     forget_places(c.ui);
     c.ui.home = home_at_opening(document_->project().scene);
-    c.ui.frame = {.fit = c.ui.frame.fit};
+    const bool fit = c.ui.frame.fit;
+    c.ui.frame = CameraFrame();
+    c.ui.frame.fit = fit;
     make_room(c.ui, s.panels);
     open_panels(c, s.panels, lesson_panels);
     c.ui.tool = tool_of(s.tool);

@@ -222,10 +222,10 @@ void EditorSnapshots::show_merged(const std::filesystem::path& file) {
 void EditorSnapshots::add_merged(OpenedSnapshot opened, UiState& ui) {
     const auto older = std::ranges::find(ui.snapshots.list, opened.snapshot.file, &Snapshot::file);
     if (!merged_.insert(opened.snapshot.file).second && older == ui.snapshots.list.end()) return; // the user has removed it
-    const std::optional<uint64_t> older_id = older == ui.snapshots.list.end() ? std::nullopt : std::optional((*older)->id);
+    const SnapshotPtr replaced = older == ui.snapshots.list.end() ? nullptr : *older;
     const SnapshotPtr newer = add_to_strip(std::move(opened), ui);
     newer->unload();
-    if (older_id) ui.snapshots.replace(*older_id, newer->id);
+    if (replaced) ui.snapshots.replace(replaced->id, newer->id);
 }
 
 SnapshotPtr EditorSnapshots::add_to_strip(OpenedSnapshot opened, UiState& ui) {

@@ -12,7 +12,6 @@ namespace blush::stability {
 namespace {
 
 constexpr float lux = 3, albedo = 0.8f;
-constexpr Vec3d up{0, 1, 0};
 
 GeometryPtr changed(const GeometryPtr& from, auto&& change) {
     Geometry g = *from;

@@ -17,7 +17,7 @@ Vec3 skimming(double degrees) {
 }
 
 // A floor of albedo 0.8 under a parallel sun of 3 lux; uses the cosine of the rounded direction in the scene.
-Findings sunlit(double degrees) {
+Findings sun_at(double degrees) {
     Scene scene;
     place(scene, floor_quad(1), lambert(0.8f));
     Light sun;
@@ -64,7 +64,7 @@ Findings diffuse_floor(double degrees) {
 std::vector<StabilityCase> grazing_cases() {
     std::vector<StabilityCase> cases;
     for (const double degrees : {80.0, 89.0, 89.9, 89.99, 89.9999}) {
-        cases.push_back({fmt::format("sun at {} degrees", degrees), grazing_angles, [degrees] { return sunlit(degrees); }});
+        cases.push_back({fmt::format("sun at {} degrees", degrees), grazing_angles, [degrees] { return sun_at(degrees); }});
         cases.push_back({fmt::format("lacquer seen at {} degrees", degrees), grazing_angles, [degrees] { return lacquer(degrees); }});
     }
     cases.push_back({"diffuse floor seen at 89.9999 degrees", grazing_angles, [] { return diffuse_floor(89.9999); }});

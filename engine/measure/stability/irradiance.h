@@ -10,6 +10,8 @@
 
 namespace blush::stability {
 
+inline constexpr Vec3d up{0, 1, 0};
+
 // Irradiance by a polygon of radiance 1 that is completely above the horizon of a point with unit normal n (Lambert 1760): half
 // the sum over edges of the subtended angle times the cosine between n and the normal of the plane through edge and point.
 double polygon_irradiance(const Vec3d& point, const Vec3d& n, std::span<const Vec3d> corners);

@@ -11,8 +11,6 @@
 namespace blush::stability {
 namespace {
 
-constexpr Vec3d up{0, 1, 0};
-
 Light light_of(Light::Kind kind, float intensity) {
     Light light;
     light.kind = kind;

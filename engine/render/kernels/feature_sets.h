@@ -1,4 +1,5 @@
-// The feature sets that kernels are compiled for, smallest first. A scene uses the first that has all it needs.
+// The feature sets that kernels are compiled for, smallest first. A scene uses the first that has all it needs. Each costs compile time
+// for every instruction set.
 #pragma once
 
 #include "shading/features.h"
@@ -17,8 +18,7 @@ struct FeatureSet {
 inline constexpr Features lambert_features = no_features.with(Feature::emissive_triangles).with(Feature::instances);
 // Rooms with metal and glass, lit only by meshes.
 inline constexpr Features mesh_lit_features = lambert_features.with(Feature::specular).with(Feature::transmission);
-// Everything except rare materials. The rare layers share one kernel: it is the largest by far, and each further combination
-// would cost as much compile time for four instruction sets.
+// Everything except rare materials. The rare layers share one kernel: it is the largest by far.
 inline constexpr Features full_features{all_features.bits & ~layer_features.bits};
 // All features of `full` that need no texture coordinates.
 inline constexpr Features untextured_features = full_features.without(Feature::textures)
@@ -41,5 +41,7 @@ inline constexpr std::array<FeatureSet, 8> feature_sets{{
     {"light paths", untextured_features.with(Feature::light_paths)},
     {"light paths, layered", all_features.with(Feature::light_paths)},
 }};
+// For instruction sets that no processor of the last ten years is limited to: fewer kernels, which pay for more than a scene uses.
+inline constexpr std::array<FeatureSet, 3> fallback_feature_sets{{feature_sets[0], feature_sets[5], feature_sets[7]}};
 
 } // namespace blush

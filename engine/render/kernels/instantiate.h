@@ -12,11 +12,12 @@ template <Features S, class F> constexpr Kernel make_kernel(std::string_view isa
     if constexpr (S.has(Feature::light_paths)) kernel.trace_light_paths = &trace_light_paths<S, F>;
     return kernel;
 }
-template <class F, size_t... I> constexpr std::array<Kernel, sizeof...(I)> make_kernels(std::string_view isa, std::index_sequence<I...>) {
-    return {make_kernel<feature_sets[I].features, F>(isa, feature_sets[I].name)...};
+template <class F, const auto& sets, size_t... I>
+constexpr std::array<Kernel, sizeof...(I)> make_kernels(std::string_view isa, std::index_sequence<I...>) {
+    return {make_kernel<sets[I].features, F>(isa, sets[I].name)...};
 }
-template <class F> constexpr auto make_kernels(std::string_view isa) {
-    return make_kernels<F>(isa, std::make_index_sequence<feature_sets.size()>());
+template <class F, const auto& sets> constexpr auto make_kernels(std::string_view isa) {
+    return make_kernels<F, sets>(isa, std::make_index_sequence<sets.size()>());
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -4,7 +4,7 @@
 namespace blush {
 
 std::span<const Kernel> kernels_scalar() {
-    static constexpr auto kernels = make_kernels<float>("scalar");
+    static constexpr auto kernels = make_kernels<float, fallback_feature_sets>("scalar");
     return kernels;
 }
 

@@ -4,7 +4,7 @@
 namespace blush {
 
 std::span<const Kernel> kernels_v2() {
-    static constexpr auto kernels = make_kernels<Wide>("v2");
+    static constexpr auto kernels = make_kernels<Wide, fallback_feature_sets>("v2");
     return kernels;
 }
 

@@ -4,7 +4,7 @@
 namespace blush {
 
 std::span<const Kernel> kernels_v3() {
-    static constexpr auto kernels = make_kernels<Wide>("v3");
+    static constexpr auto kernels = make_kernels<Wide, feature_sets>("v3");
     return kernels;
 }
 

@@ -4,7 +4,7 @@
 namespace blush {
 
 std::span<const Kernel> kernels_v4() {
-    static constexpr auto kernels = make_kernels<Wide>("v4");
+    static constexpr auto kernels = make_kernels<Wide, feature_sets>("v4");
     return kernels;
 }
 
