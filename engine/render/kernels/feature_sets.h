@@ -1,5 +1,5 @@
-// The feature sets that kernels are compiled for, smallest first. A scene uses the first that has all it needs. Each costs compile time
-// for every instruction set.
+// The feature sets that kernels are compiled for, smallest first. A scene uses the first that has all it needs. Each
+// costs compile time for every instruction set.
 #pragma once
 
 #include "shading/features.h"
@@ -41,7 +41,11 @@ inline constexpr std::array<FeatureSet, 8> feature_sets{{
     {"light paths", untextured_features.with(Feature::light_paths)},
     {"light paths, layered", all_features.with(Feature::light_paths)},
 }};
-// For instruction sets that no processor of the last ten years is limited to: fewer kernels, which pay for more than a scene uses.
-inline constexpr std::array<FeatureSet, 3> fallback_feature_sets{{feature_sets[0], feature_sets[5], feature_sets[7]}};
+// For processors without AVX2 (scalar, v2): fewer, to keep the build cheap. Scenes without rare layers pay for them there.
+inline constexpr std::array<FeatureSet, 3> fallback_feature_sets{{
+    {"lambert", lambert_features},
+    {"layered", all_features},
+    {"light paths, layered", all_features.with(Feature::light_paths)},
+}};
 
 } // namespace blush
