@@ -22,7 +22,7 @@ constexpr int guiding_levels = 8;
 
 struct GuidingTables {
     const int32_t* roots = nullptr; // by cell and side: node; -1: nothing has been learned; null: nowhere
-    const float* guided = nullptr;  // by cell and side: share of guided samples, at most max_guided_share
+    const float* guided = nullptr;  // by node, if it is a root: share of guided samples, at most max_guided_share
     const float* shares = nullptr;  // four a node: probabilities of its quadrants
     const int32_t* nodes = nullptr; // four a node: of its quadrants; -1: directions are uniform there
     ReceiverGrid grid;
@@ -129,7 +129,7 @@ DirectionGuide<F> direction_guide_at(const GuideTables& tables, const Vec<F>& fr
         const Int<F> cell = guiding_cell<F>(tables.learned.grid, from, normal), root = gather(tables.learned.roots, cell);
         guide.learned = lambertian && as_mask(root >= 0);
         guide.root = select(guide.learned, root, Int<F>(0));
-        guide.share = select(guide.learned, gather(tables.learned.guided, cell), F(0.f));
+        guide.share = select(guide.learned, gather(tables.learned.guided, guide.root), F(0.f));
     }
     const Mask<F> by_casters = lambertian && !guide.learned;
     if (tables.casters.count > 0 && any(by_casters)) guide.casters = caustic_guide_at<F>(tables.casters, from, normal, by_casters);

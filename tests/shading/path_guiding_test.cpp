@@ -25,9 +25,9 @@ struct Quadtree {
     std::vector<float> shares, guided;
     RandomNumbers random{11};
 
-    explicit Quadtree(const ReceiverGrid& grid = {})
-        : roots(size_t(grid.count()) * guiding_sides, -1), guided(roots.size(), guided_share), grid_(grid) {
+    explicit Quadtree(const ReceiverGrid& grid = {}) : roots(size_t(grid.count()) * guiding_sides, -1), grid_(grid) {
         add(0);
+        guided.assign(nodes.size() / 4, guided_share);
     }
     GuidingTables tables() const { return {roots.data(), guided.data(), shares.data(), nodes.data(), grid_}; }
 

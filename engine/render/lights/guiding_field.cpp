@@ -79,30 +79,22 @@ struct GuidingQuadtree {
     }
 };
 
-// The trials by cell and side, in their order.
-template <class T> struct ByCell {
-    std::vector<size_t> begins;
-    std::vector<T> sorted;
-
-    template <class Wanted, class Make>
-    ByCell(std::span<const GuidingTrial> trials, const ReceiverGrid& grid, const Wanted& wanted, const Make& make)
-        : begins(size_t(grid.count()) * guiding_sides + 1) {
-        const auto cell_of = [&](const GuidingTrial& t) { return size_t(guiding_cell<float>(grid, t.position, t.normal)); };
-        for (const GuidingTrial& t : trials)
-            if (wanted(t)) ++begins[cell_of(t) + 1];
-        for (size_t k = 1; k < begins.size(); ++k) begins[k] += begins[k - 1];
-        sorted.resize(begins.back());
-        std::vector<size_t> next(begins.begin(), begins.end() - 1);
-        for (const GuidingTrial& t : trials)
-            if (wanted(t)) sorted[next[cell_of(t)]++] = make(t);
+// By cell and side.
+template <class T, class Wanted, class Make>
+ByKey<T> by_cell(std::span<const GuidingTrial> trials, const ReceiverGrid& grid, const Wanted& wanted, const Make& make) {
+    std::vector<std::pair<int32_t, T>> entries;
+    for (const GuidingTrial& t : trials)
+        if (wanted(t)) entries.emplace_back(guiding_cell<float>(grid, t.position, t.normal), make(t));
+    return ByKey<T>(std::move(entries));
+}
+template <class T> std::vector<T> values_of_all(const ByKey<T>& by_cell, std::span<const int32_t> cells) {
+    std::vector<T> all;
+    for (const int32_t cell : cells) {
+        const std::span<const T> some = by_cell.values_of(cell);
+        all.insert(all.end(), some.begin(), some.end());
     }
-    std::span<const T> of(size_t cell) const { return std::span(sorted).subspan(begins[cell], begins[cell + 1] - begins[cell]); }
-    std::vector<T> of_all(const std::vector<size_t>& cells) const {
-        std::vector<T> all;
-        for (const size_t cell : cells) all.insert(all.end(), of(cell).begin(), of(cell).end());
-        return all;
-    }
-};
+    return all;
+}
 
 // Moments of estimates of the irradiance at a vertex.
 struct Estimates {
@@ -131,8 +123,8 @@ double surface_cells(double photons, double occupied, int32_t side) {
 }
 
 struct GuidingRegion {
-    const std::vector<size_t>* cells; // with photons
-    int32_t side;                     // of the cube, in cells
+    std::vector<int32_t> cells; // and side: with photons
+    int32_t side;               // of the cube, in cells
     GuidingQuadtree tree = {};
     double guided = 0;                              // share of samples
     double paths = 0;                               // vertices of paths in it
@@ -170,45 +162,53 @@ struct GuidingRegion {
 
 // A cell's region is the smallest with enough photons.
 struct GuidingRegions {
-    std::vector<GuidingRegion> all;
-    std::vector<int32_t> of_cell; // and side; -1: none
+    std::vector<GuidingRegion> all; // in the order of their first cells
+    std::vector<int32_t> of_cell;   // and side; -1: none
 
-    GuidingRegions(const ByCell<GuidingPoint>& photons, const ReceiverGrid& grid) : of_cell(photons.begins.size() - 1, -1) {
-        const size_t cells = of_cell.size();
-        std::array<std::vector<size_t>, region_sides.size()> photons_of; // by size, block and side
-        std::array<std::vector<int32_t>, region_sides.size()> region_of;
-        const auto block_of = [&](size_t size, size_t cell) {
+    GuidingRegions(const ByKey<GuidingPoint>& photons, const ReceiverGrid& grid) : of_cell(size_t(grid.count()) * guiding_sides, -1) {
+        std::vector<GuidingRegion> found;
+        for (size_t size = region_sides.size(); size-- > 0;) {
             const CellBlocks blocks{grid, region_sides[size]};
-            return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
-        };
-        for (size_t size = 0; size < region_sides.size(); ++size) {
-            cells_of_[size].resize(size_t(CellBlocks{grid, region_sides[size]}.count()) * guiding_sides);
-            photons_of[size].resize(cells_of_[size].size());
-            region_of[size].assign(cells_of_[size].size(), -1);
-            for (size_t k = 0; k < cells; ++k)
-                if (const size_t count = photons.of(k).size(); count > 0) {
-                    const size_t block = block_of(size, k);
-                    cells_of_[size][block].push_back(k);
-                    photons_of[size][block] += count;
+            const ByKey<size_t> of_block = occupied_cells(photons, blocks);
+            for (size_t b = 0; b < of_block.keys().size(); ++b) {
+                GuidingRegion region{.cells = {}, .side = region_sides[size]};
+                size_t count = 0;
+                for (const size_t k : of_block.values_at(b)) {
+                    region.cells.push_back(photons.keys()[k]);
+                    count += photons.values_at(k).size();
                 }
-        }
-        for (size_t k = 0; k < cells; ++k)
-            for (size_t size = 0; size < region_sides.size(); ++size) {
-                const size_t block = block_of(size, k);
-                if (photons_of[size][block] < (size + 1 < region_sides.size() ? min_photons : min_photons_of_largest)) continue;
-                if (region_of[size][block] < 0) {
-                    region_of[size][block] = int32_t(all.size());
-                    all.push_back({.cells = &cells_of_[size][block], .side = region_sides[size]});
-                }
-                of_cell[k] = region_of[size][block];
-                break;
+                if (count < (size + 1 < region_sides.size() ? min_photons : min_photons_of_largest)) continue;
+                const int32_t block = of_block.keys()[b] / guiding_sides, face = of_block.keys()[b] % guiding_sides;
+                blocks.for_each_cell(block, [&](int32_t cell) { of_cell[size_t(cell * guiding_sides + face)] = int32_t(found.size()); });
+                found.push_back(std::move(region));
             }
+        }
+        keep_used(std::move(found));
     }
-    GuidingRegions(const GuidingRegions&) = delete;
-    GuidingRegions& operator=(const GuidingRegions&) = delete;
 
 private:
-    std::array<std::vector<std::vector<size_t>>, region_sides.size()> cells_of_; // by size, block and side: those with photons
+    // Indices of cells with photons, by block and side.
+    static ByKey<size_t> occupied_cells(const ByKey<GuidingPoint>& photons, const CellBlocks& blocks) {
+        std::vector<std::pair<int32_t, size_t>> entries;
+        for (size_t k = 0; k < photons.keys().size(); ++k) {
+            const int32_t cell = photons.keys()[k];
+            entries.emplace_back(blocks.of(cell / guiding_sides) * guiding_sides + cell % guiding_sides, k);
+        }
+        return ByKey<size_t>(std::move(entries));
+    }
+    // Smaller regions may have taken all cells of a larger one.
+    void keep_used(std::vector<GuidingRegion> found) {
+        std::vector<int32_t> number(found.size(), -1);
+        for (int32_t& region : of_cell) {
+            if (region < 0) continue;
+            int32_t& kept = number[size_t(region)];
+            if (kept < 0) {
+                kept = int32_t(all.size());
+                all.push_back(std::move(found[size_t(region)]));
+            }
+            region = kept;
+        }
+    }
 };
 
 // Over the regions, weighted by their vertices of paths.
@@ -236,22 +236,22 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         if (has_flux(t)) positions.push_back(t.position);
     grid_ = make_grid(positions);
     if (grid_.cells_per_metre == 0) return;
-    const ByCell<GuidingPoint> by_cell(photons, grid_, has_flux, [](const GuidingTrial& t) {
+    const ByKey<GuidingPoint> arrived = by_cell<GuidingPoint>(photons, grid_, has_flux, [](const GuidingTrial& t) {
         const Vec2T<float> at = guiding_point<float>(t.direction);
         return GuidingPoint{at.x, at.y, double(t.value), &t};
     });
-    const ByCell<double> found(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
+    const ByKey<double> found = by_cell<double>(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
 
-    GuidingRegions regions(by_cell, grid_);
+    GuidingRegions regions(arrived, grid_);
     const double cell_area = 1 / (double(grid_.cells_per_metre) * double(grid_.cells_per_metre));
     workers.for_each(int64_t(regions.all.size()), {}, [&](int64_t i, unsigned) {
         GuidingRegion& region = regions.all[size_t(i)];
-        std::vector<GuidingPoint> points = by_cell.of_all(*region.cells);
+        std::vector<GuidingPoint> points = values_of_all(arrived, region.cells);
         double flux = 0;
         for (const GuidingPoint& p : points) flux += p.flux;
-        const double area = cell_area * surface_cells(double(points.size()), double(region.cells->size()), region.side);
+        const double area = cell_area * surface_cells(double(points.size()), double(region.cells.size()), region.side);
         const double caustic = flux / (double(emitted) * area);
-        std::vector<double> values = found.of_all(*region.cells);
+        std::vector<double> values = values_of_all(found, region.cells);
         region.paths = double(values.size());
         const Estimates other = estimates_of(std::move(values));
         const double weighted = caustic_weight * caustic;
@@ -267,14 +267,13 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         root_of.push_back(first);
         for (const int32_t node : region.tree.nodes) nodes_.push_back(node < 0 ? -1 : node + first);
         shares_.insert(shares_.end(), region.tree.shares.begin(), region.tree.shares.end());
+        guided_.resize(nodes_.size() / 4, float(region.guided));
     }
     if (regions.all.empty()) return;
-    roots_.assign(regions.of_cell.size(), -1);
-    guided_.assign(regions.of_cell.size(), 0);
-    for (size_t k = 0; k < roots_.size(); ++k) {
-        if (regions.of_cell[k] < 0) continue;
-        roots_[k] = root_of[size_t(regions.of_cell[k])];
-        guided_[k] = float(regions.all[size_t(regions.of_cell[k])].guided);
+    roots_ = std::move(regions.of_cell);
+    for (int32_t& root : roots_) {
+        if (root < 0) continue;
+        root = root_of[size_t(root)];
         ++regions_;
     }
 }
@@ -282,15 +281,13 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
 void GuidingField::forget_cell(size_t cell) {
     if (roots_[cell] < 0) return;
     roots_[cell] = -1;
-    guided_[cell] = 0;
     --regions_;
 }
 
 void GuidingField::weaken(double factor) {
-    for (size_t k = 0; k < roots_.size(); ++k) {
-        guided_[k] *= float(factor);
-        if (guided_[k] < float(min_weakened)) forget_cell(k);
-    }
+    for (float& guided : guided_) guided *= float(factor);
+    for (size_t k = 0; k < roots_.size(); ++k)
+        if (roots_[k] >= 0 && guided_[size_t(roots_[k])] < float(min_weakened)) forget_cell(k);
 }
 
 void GuidingField::forget(const Vec3& low, const Vec3& high) {

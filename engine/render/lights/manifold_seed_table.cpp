@@ -90,8 +90,7 @@ ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const
     }
 
     grid_ = grid_of(positions);
-    const auto cells = size_t(grid_.count()) * guiding_sides;
-    regions_of_cell_.assign(cells, 0);
+    regions_of_cell_.assign(size_t(grid_.count()) * guiding_sides, 0);
     std::erase_if(usable, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)] < 0; });
     std::ranges::stable_sort(usable, {}, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)]; });
     add_region(usable, seeds_of_scene);
@@ -104,29 +103,28 @@ ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const
 
     for (size_t size = block_sides.size(); size-- > 0;) {
         const CellBlocks blocks{grid_, block_sides[size]};
-        const auto block_of = [&](size_t cell) {
-            return size_t(blocks.of(int32_t(cell / guiding_sides))) * guiding_sides + cell % guiding_sides;
-        };
-        std::vector<std::vector<const ChainPhoton*>> of_block(size_t(blocks.count()) * guiding_sides);
+        std::vector<std::pair<int32_t, const ChainPhoton*>> near; // by block and side
         const float reach = margin * float(block_sides[size]) / grid_.cells_per_metre;
         for (const ChainPhoton* p : usable) {
-            std::array<size_t, 8> blocks_near;
+            std::array<int32_t, 8> blocks_near;
             for (size_t k = 0; k < 8; ++k) {
                 const Vec3 corner{k & 1 ? reach : -reach, k & 2 ? reach : -reach, k & 4 ? reach : -reach};
-                blocks_near[k] = block_of(size_t(guiding_cell<float>(grid_, p->position + corner, p->normal)));
+                const int32_t cell = guiding_cell<float>(grid_, p->position + corner, p->normal);
+                blocks_near[k] = blocks.of(cell / guiding_sides) * guiding_sides + cell % guiding_sides;
             }
             std::ranges::sort(blocks_near);
             const auto end = std::unique(blocks_near.begin(), blocks_near.end());
-            for (auto b = blocks_near.begin(); b != end; ++b) of_block[*b].push_back(p);
+            for (auto b = blocks_near.begin(); b != end; ++b) near.emplace_back(*b, p);
         }
-        std::vector<int32_t> region_of(of_block.size(), -1);
-        for (size_t b = 0; b < of_block.size(); ++b) {
-            if (of_block[b].size() < photons_of_region) continue;
-            region_of[b] = int32_t(regions_.size());
-            add_region(std::move(of_block[b]), seeds_of_region);
+        const ByKey<const ChainPhoton*> of_block(std::move(near));
+        for (size_t b = 0; b < of_block.keys().size(); ++b) {
+            const std::span<const ChainPhoton* const> some = of_block.values_at(b);
+            if (some.size() < photons_of_region) continue;
+            const int32_t block = of_block.keys()[b] / guiding_sides, face = of_block.keys()[b] % guiding_sides;
+            blocks.for_each_cell(block,
+                                 [&](int32_t cell) { regions_of_cell_[size_t(cell * guiding_sides + face)] = int32_t(regions_.size()); });
+            add_region({some.begin(), some.end()}, seeds_of_region);
         }
-        for (size_t cell = 0; cell < cells; ++cell)
-            if (const int32_t region = region_of[block_of(cell)]; region >= 0) regions_of_cell_[cell] = region;
     }
 }
 

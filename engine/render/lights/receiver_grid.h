@@ -3,6 +3,9 @@
 
 #include "shading/receiver_grid.h"
 
+#include <algorithm>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace blush {
@@ -24,6 +27,43 @@ struct CellBlocks {
         const int32_t x = cell % grid.cells[0], y = cell / grid.cells[0] % grid.cells[1], z = cell / (grid.cells[0] * grid.cells[1]);
         return (z / side * along(1) + y / side) * along(0) + x / side;
     }
+    template <class Visit> void for_each_cell(int32_t block, const Visit& visit) const {
+        const int32_t x0 = block % along(0) * side, y0 = block / along(0) % along(1) * side, z0 = block / (along(0) * along(1)) * side;
+        for (int32_t z = z0; z < std::min(z0 + side, grid.cells[2]); ++z)
+            for (int32_t y = y0; y < std::min(y0 + side, grid.cells[1]); ++y)
+                for (int32_t x = x0; x < std::min(x0 + side, grid.cells[0]); ++x) visit((z * grid.cells[1] + y) * grid.cells[0] + x);
+    }
+};
+
+// Values by key, as cells, blocks, or their sides. Receivers are surfaces, so most keys have none, and cost nothing.
+template <class T> class ByKey {
+public:
+    // The values of a key keep their order.
+    explicit ByKey(std::vector<std::pair<int32_t, T>> entries) {
+        std::ranges::stable_sort(entries, {}, [](const auto& e) { return e.first; });
+        for (auto& [key, value] : entries) {
+            if (keys_.empty() || keys_.back() != key) {
+                keys_.push_back(key);
+                begins_.push_back(values_.size());
+            }
+            values_.push_back(std::move(value));
+        }
+        begins_.push_back(values_.size());
+    }
+    // Those with values, ascending.
+    const std::vector<int32_t>& keys() const { return keys_; }
+    // Of keys()[k].
+    std::span<const T> values_at(size_t k) const { return std::span(values_).subspan(begins_[k], begins_[k + 1] - begins_[k]); }
+    std::span<const T> values_of(int32_t key) const {
+        const auto found = std::ranges::lower_bound(keys_, key);
+        if (found == keys_.end() || *found != key) return {};
+        return values_at(size_t(found - keys_.begin()));
+    }
+
+private:
+    std::vector<int32_t> keys_;
+    std::vector<size_t> begins_;
+    std::vector<T> values_;
 };
 
 } // namespace blush

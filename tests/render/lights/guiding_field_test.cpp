@@ -57,6 +57,9 @@ TEST(GuidingField, SendsSamplesTowardsTheLight) {
     EXPECT_GT(towards, samples * 0.8);
 }
 
+// Of learned directions; 0 where nothing has been learned.
+float share_at(const GuidingTables& t, int32_t cell) { return t.roots[cell] < 0 ? 0 : t.guided[t.roots[cell]]; }
+
 // The shares of learned directions at points of the left half, which has the caustic.
 std::vector<float> shares_of(const GuidingField& field) {
     const GuidingTables t = field.tables();
@@ -64,8 +67,7 @@ std::vector<float> shares_of(const GuidingField& field) {
     for (float x = -1.9f; x < -0.2f; x += 0.1f)
         for (float z = -1.9f; z < 1.9f; z += 0.1f) {
             const int32_t cell = cell_at(t, {x, 0, z});
-            EXPECT_EQ(t.roots[cell] < 0, t.guided[cell] == 0);
-            shares.push_back(t.guided[cell]);
+            shares.push_back(share_at(t, cell));
         }
     return shares;
 }
@@ -146,14 +148,14 @@ TEST(GuidingField, ShareFollowsTheIrradiance) {
         double sum = 0;
         int cells = 0;
         for (float x = -1.9f; x < -0.2f; x += 0.1f)
-            for (float z = -1.9f; z < 1.9f; z += 0.1f, ++cells) sum += double(t.guided[cell_at(t, {x, 0, z})]);
+            for (float z = -1.9f; z < 1.9f; z += 0.1f, ++cells) sum += double(share_at(t, cell_at(t, {x, 0, z})));
         // The root of the second moment of values that are uniform in [0, 2 E), without the largest of them, is about 1.13 E.
         const double weighted = 4 * 0.025, expected = weighted / (weighted + 1.13 * double(irradiance));
         EXPECT_NEAR(sum / cells, expected, 0.15 * expected) << irradiance;
-        EXPECT_LT(t.guided[cell_at(t, {1, 0, 0})], 0.04f) << "no caustic there";
+        EXPECT_LT(share_at(t, cell_at(t, {1, 0, 0})), 0.04f) << "no caustic there";
     }
     const GuidingField dark = learned(trials(1, 1, 0));
-    EXPECT_EQ(dark.tables().guided[cell_at(dark.tables(), {-1, 0, 0})], max_guided_share);
+    EXPECT_EQ(share_at(dark.tables(), cell_at(dark.tables(), {-1, 0, 0})), max_guided_share);
 }
 
 // Cosine sampling finds the source, a cone of 0.01 sr or so, seldom; where the other light is strong, this does not matter.
@@ -188,7 +190,7 @@ TEST(GuidingField, ScalesExactlyWithPowersOfTwo) {
             const int32_t cell = cell_at(plain.tables(), at), root = plain.tables().roots[cell];
             ASSERT_EQ(cell_at(field.tables(), at * scale), cell);
             ASSERT_EQ(field.tables().roots[cell], root);
-            EXPECT_EQ(field.tables().guided[cell], plain.tables().guided[cell]);
+            EXPECT_EQ(share_at(field.tables(), cell), share_at(plain.tables(), cell));
             const float u = random(), v = random();
             if (root < 0) continue;
             EXPECT_EQ(sample_learned_direction<float>(field.tables(), root, u, v, true),
@@ -226,8 +228,8 @@ TEST(GuidingField, WithoutPhotonsLearnsNothing) {
         if (!field.tables().roots) continue;
         EXPECT_GT(brightness, 0);
         const int32_t cell = cell_at(field.tables(), {-1, 0, 0.3f});
-        EXPECT_GE(field.tables().guided[cell], 0);
-        EXPECT_LE(field.tables().guided[cell], max_guided_share);
+        EXPECT_GE(share_at(field.tables(), cell), 0);
+        EXPECT_LE(share_at(field.tables(), cell), max_guided_share);
         const Vec3 d = sample_learned_direction<float>(field.tables(), field.tables().roots[cell], 0.3f, 0.7f, true);
         EXPECT_NEAR(dot(d, d), 1, 1e-5);
     }
