@@ -87,10 +87,7 @@ Work Scheduler::next() const {
         return work;
     }
     if (film_divider_ > 1) {
-        // Full resolution next: directly if that is fast enough, else via an intermediate one.
-        const int middle = std::max(1, (film_divider_ + 2) / 4);
-        const bool direct = timings_.sample_seconds < 0.25;
-        work.divider = direct ? 1 : middle;
+        // Directly: one sample of a size between them is worse than the samples of the coarse film.
         work.clear = true;
         return work;
     }

@@ -141,7 +141,7 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
     };
     EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1, 1, 1, 1}));
     EXPECT_EQ(dividers(0.1875), (std::vector{4, 4, 4, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(1), (std::vector{9, 9, 9, 9, 9, 2, 1, 1})) << "one intermediate step for slow scenes";
+    EXPECT_EQ(dividers(1), (std::vector{9, 9, 9, 9, 9, 1, 1, 1})) << "no size between them: its first sample has the higher error";
 }
 
 TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
