@@ -140,8 +140,8 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
         return d;
     };
     EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(0.1875), (std::vector{4, 4, 4, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(1), (std::vector{9, 9, 9, 9, 9, 1, 1, 1})) << "no size between them: its first sample has the higher error";
+    EXPECT_EQ(dividers(0.1875), (std::vector{5, 5, 5, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(dividers(1), (std::vector{11, 11, 11, 11, 11, 1, 1, 1})) << "no size between them: its first sample has the higher error";
 }
 
 TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
