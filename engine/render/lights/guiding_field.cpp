@@ -231,20 +231,36 @@ std::optional<PilotFigures> figures_of(const std::vector<GuidingRegion>& regions
 
 GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
                            const CausticCasterTables& casters, const Workers& workers) {
+    build(photons, emitted, paths, casters, workers, {});
+}
+
+std::optional<GuidingField> GuidingField::learn(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
+                                                const CausticCasterTables& casters, const Workers& workers,
+                                                const std::function<bool()>& wanted) {
+    GuidingField field;
+    if (!field.build(photons, emitted, paths, casters, workers, wanted)) return std::nullopt;
+    return field;
+}
+
+bool GuidingField::build(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
+                         const CausticCasterTables& casters, const Workers& workers, const std::function<bool()>& wanted) {
     std::vector<Vec3> positions;
     for (const GuidingTrial& t : photons)
         if (has_flux(t)) positions.push_back(t.position);
     grid_ = make_grid(positions);
-    if (grid_.cells_per_metre == 0) return;
+    if (grid_.cells_per_metre == 0) return true;
     const ByKey<GuidingPoint> arrived = by_cell<GuidingPoint>(photons, grid_, has_flux, [](const GuidingTrial& t) {
         const Vec2T<float> at = guiding_point<float>(t.direction);
         return GuidingPoint{at.x, at.y, double(t.value), &t};
     });
+    const auto is_unwanted = [&] { return wanted && !wanted(); };
+    if (is_unwanted()) return false;
     const ByKey<double> found = by_cell<double>(paths, grid_, is_usable, [](const GuidingTrial& t) { return double(t.value); });
 
+    if (is_unwanted()) return false;
     GuidingRegions regions(arrived, grid_);
     const double cell_area = 1 / (double(grid_.cells_per_metre) * double(grid_.cells_per_metre));
-    workers.for_each(int64_t(regions.all.size()), {}, [&](int64_t i, unsigned) {
+    const bool all = workers.for_each(int64_t(regions.all.size()), wanted, [&](int64_t i, unsigned) {
         GuidingRegion& region = regions.all[size_t(i)];
         std::vector<GuidingPoint> points = values_of_all(arrived, region.cells);
         double flux = 0;
@@ -259,6 +275,7 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         region.compare(points, caustic, other, casters);
         region.tree.build(points);
     });
+    if (!all) return false;
     figures_ = figures_of(regions.all);
 
     std::vector<int32_t> root_of;
@@ -269,13 +286,14 @@ GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitte
         shares_.insert(shares_.end(), region.tree.shares.begin(), region.tree.shares.end());
         guided_.resize(nodes_.size() / 4, float(region.guided));
     }
-    if (regions.all.empty()) return;
+    if (regions.all.empty()) return true;
     roots_ = std::move(regions.of_cell);
     for (int32_t& root : roots_) {
         if (root < 0) continue;
         root = root_of[size_t(root)];
         ++regions_;
     }
+    return true;
 }
 
 void GuidingField::forget_cell(size_t cell) {

@@ -7,6 +7,7 @@
 #include "shading/path_guiding.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +31,10 @@ public:
     // other surfaces, sampled with `casters`.
     GuidingField(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
                  const CausticCasterTables& casters, const Workers& workers);
+    // The same, or nothing if `wanted` returned false meanwhile; empty: it does not.
+    static std::optional<GuidingField> learn(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
+                                             const CausticCasterTables& casters, const Workers& workers,
+                                             const std::function<bool()>& wanted);
 
     // Valid as long as this object. Without roots if no region has learned anything.
     GuidingTables tables() const;
@@ -49,6 +54,9 @@ public:
     }
 
 private:
+    // False if `wanted` returned false.
+    bool build(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
+               const CausticCasterTables& casters, const Workers& workers, const std::function<bool()>& wanted);
     void forget_cell(size_t cell);
 
     ReceiverGrid grid_;

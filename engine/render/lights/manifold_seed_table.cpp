@@ -18,6 +18,7 @@ constexpr std::array<int32_t, 4> block_sides{1, 2, 4, 8};  // of a region, in ce
 constexpr float margin = 0.25f;                            // of a block's side: photons so near to it count, too
 constexpr std::array<int, 4> grid_sides{192, 128, 96, 64}; // cells along the longest side: the first with
 constexpr double max_grid_cells = 64.0 * 64 * 64;          // no more than so many in all
+constexpr size_t photons_per_question = 4096;              // whether the table is still wanted
 
 bool is_usable(const ChainPhoton& p) {
     return is_finite_position(p.position) && is_finite_position(p.target) && std::isfinite(p.flux) && p.flux > 0 &&
@@ -56,7 +57,16 @@ bool ends_chains(const SceneTables& scene, const LightRecord& light) {
 
 } // namespace
 
-ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene) {
+ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene) { build(photons, scene, {}); }
+
+std::optional<ManifoldSeedTable> ManifoldSeedTable::make(std::span<const ChainPhoton> photons, const SceneTables& scene,
+                                                         const std::function<bool()>& wanted) {
+    ManifoldSeedTable table;
+    if (!table.build(photons, scene, wanted)) return std::nullopt;
+    return table;
+}
+
+bool ManifoldSeedTable::build(std::span<const ChainPhoton> photons, const SceneTables& scene, const std::function<bool()>& wanted) {
     const LightTables& lights = scene.lights;
     // Groups, of lights that some photon comes from.
     group_of_light_.assign(size_t(lights.count), -1);
@@ -73,7 +83,7 @@ ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const
         positions.push_back(p.position);
         group_of_part.emplace(key_of(p.light), 0);
     }
-    if (usable.empty()) return;
+    if (usable.empty()) return true;
     for (auto& [key, group] : group_of_part) {
         group = int32_t(groups_.size());
         groups_.push_back({-1, 0, 0});
@@ -99,33 +109,41 @@ ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const
     for (int32_t& group : group_of_light_)
         if (group >= 0 && !(groups_[size_t(group)].share > 0)) group = -1;
     std::erase_if(usable, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)] < 0; });
-    if (grid_.cells_per_metre == 0) return;
+    if (grid_.cells_per_metre == 0) return true;
 
-    for (size_t size = block_sides.size(); size-- > 0;) {
-        const CellBlocks blocks{grid_, block_sides[size]};
-        std::vector<std::pair<int32_t, const ChainPhoton*>> near; // by block and side
-        const float reach = margin * float(block_sides[size]) / grid_.cells_per_metre;
-        for (const ChainPhoton* p : usable) {
-            std::array<int32_t, 8> blocks_near;
-            for (size_t k = 0; k < 8; ++k) {
-                const Vec3 corner{k & 1 ? reach : -reach, k & 2 ? reach : -reach, k & 4 ? reach : -reach};
-                const int32_t cell = guiding_cell<float>(grid_, p->position + corner, p->normal);
-                blocks_near[k] = blocks.of(cell / guiding_sides) * guiding_sides + cell % guiding_sides;
-            }
-            std::ranges::sort(blocks_near);
-            const auto end = std::unique(blocks_near.begin(), blocks_near.end());
-            for (auto b = blocks_near.begin(); b != end; ++b) near.emplace_back(*b, p);
+    for (size_t size = block_sides.size(); size-- > 0;)
+        if (!add_regions(block_sides[size], usable, wanted)) return false;
+    return true;
+}
+
+// Of the cubes of side^3 cells that have enough photons. False if `wanted` returned false.
+bool ManifoldSeedTable::add_regions(int32_t side, std::span<const ChainPhoton* const> photons, const std::function<bool()>& wanted) {
+    const CellBlocks blocks{grid_, side};
+    std::vector<std::pair<int32_t, const ChainPhoton*>> near; // by block and side
+    const float reach = margin * float(side) / grid_.cells_per_metre;
+    for (size_t i = 0; i < photons.size(); ++i) {
+        if (i % photons_per_question == 0 && wanted && !wanted()) return false;
+        const ChainPhoton& p = *photons[i];
+        std::array<int32_t, 8> blocks_near;
+        for (size_t k = 0; k < 8; ++k) {
+            const Vec3 corner{k & 1 ? reach : -reach, k & 2 ? reach : -reach, k & 4 ? reach : -reach};
+            const int32_t cell = guiding_cell<float>(grid_, p.position + corner, p.normal);
+            blocks_near[k] = blocks.of(cell / guiding_sides) * guiding_sides + cell % guiding_sides;
         }
-        const ByKey<const ChainPhoton*> of_block(std::move(near));
-        for (size_t b = 0; b < of_block.keys().size(); ++b) {
-            const std::span<const ChainPhoton* const> some = of_block.values_at(b);
-            if (some.size() < photons_of_region) continue;
-            const int32_t block = of_block.keys()[b] / guiding_sides, face = of_block.keys()[b] % guiding_sides;
-            blocks.for_each_cell(block,
-                                 [&](int32_t cell) { regions_of_cell_[size_t(cell * guiding_sides + face)] = int32_t(regions_.size()); });
-            add_region({some.begin(), some.end()}, seeds_of_region);
-        }
+        std::ranges::sort(blocks_near);
+        const auto end = std::unique(blocks_near.begin(), blocks_near.end());
+        for (auto b = blocks_near.begin(); b != end; ++b) near.emplace_back(*b, &p);
     }
+    const ByKey<const ChainPhoton*> of_block(std::move(near));
+    for (size_t b = 0; b < of_block.keys().size(); ++b) {
+        const std::span<const ChainPhoton* const> some = of_block.values_at(b);
+        if (some.size() < photons_of_region) continue;
+        const int32_t block = of_block.keys()[b] / guiding_sides, face = of_block.keys()[b] % guiding_sides;
+        blocks.for_each_cell(block,
+                             [&](int32_t cell) { regions_of_cell_[size_t(cell * guiding_sides + face)] = int32_t(regions_.size()); });
+        add_region({some.begin(), some.end()}, seeds_of_region);
+    }
+    return true;
 }
 
 // `photons`: sorted by group. So many of them become seeds, each in proportion to its flux (systematic resampling).

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,9 @@ public:
     ManifoldSeedTable() = default;
     // Reads the lights, parts and materials of the scene. Empty if no photon has arrived by specular surfaces alone.
     ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene);
+    // The same, or nothing if `wanted` returned false meanwhile; empty: it does not.
+    static std::optional<ManifoldSeedTable> make(std::span<const ChainPhoton> photons, const SceneTables& scene,
+                                                 const std::function<bool()>& wanted);
 
     bool empty() const { return seeds_.empty(); }
     // Valid as long as this object.
@@ -28,6 +33,9 @@ public:
     }
 
 private:
+    // False if `wanted` returned false.
+    bool build(std::span<const ChainPhoton> photons, const SceneTables& scene, const std::function<bool()>& wanted);
+    bool add_regions(int32_t side, std::span<const ChainPhoton* const> photons, const std::function<bool()>& wanted);
     void add_region(std::vector<const ChainPhoton*> photons, size_t seeds);
 
     ReceiverGrid grid_;

@@ -4,6 +4,7 @@
 #include "shading/receiver_grid.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,10 +39,15 @@ struct CellBlocks {
 // Values by key, as cells, blocks, or their sides. Receivers are surfaces, so most keys have none, and cost nothing.
 template <class T> class ByKey {
 public:
-    // The values of a key keep their order.
+    // The values of a key keep their order. Keys are not negative.
     explicit ByKey(std::vector<std::pair<int32_t, T>> entries) {
-        std::ranges::stable_sort(entries, {}, [](const auto& e) { return e.first; });
-        for (auto& [key, value] : entries) {
+        std::vector<uint64_t> order; // keys and indices: faster to sort than values
+        order.reserve(entries.size());
+        for (size_t i = 0; i < entries.size(); ++i) order.push_back(uint64_t(uint32_t(entries[i].first)) << 32 | i);
+        std::ranges::sort(order);
+        values_.reserve(entries.size());
+        for (const uint64_t o : order) {
+            auto& [key, value] = entries[size_t(uint32_t(o))];
             if (keys_.empty() || keys_.back() != key) {
                 keys_.push_back(key);
                 begins_.push_back(values_.size());

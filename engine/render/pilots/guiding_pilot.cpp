@@ -153,7 +153,7 @@ std::optional<GuidingField> learn_path_guiding(KernelContext context, const Caus
         of_tile[i] = std::move(std::exchange(tile.guiding, nullptr)->all);
     });
     if (!measured) return std::nullopt;
-    return GuidingField(photons.arrived, photons.emitted, joined(of_tile), context.scene->guides.casters, workers);
+    return GuidingField::learn(photons.arrived, photons.emitted, joined(of_tile), context.scene->guides.casters, workers, wanted);
 }
 
 } // namespace blush

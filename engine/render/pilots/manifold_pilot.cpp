@@ -44,7 +44,9 @@ VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CausticCasterTables& casters,
                                                const Kernel& kernel, const Kernel& without, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
-    ManifoldPilot pilot{ManifoldSeedTable(photons.chains, *context.scene), {}};
+    auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, wanted);
+    if (!seeds) return std::nullopt;
+    ManifoldPilot pilot{*std::move(seeds), {}};
     if (pilot.seeds.empty()) return pilot;
     const PilotImage image = pilot_image(context.settings, manifold_pixels);
     context.settings.reuse = {};

@@ -218,6 +218,13 @@ TEST(GuidingField, IgnoresTrialsThatAreNotFinite) {
     EXPECT_EQ(learned(more), learned(all));
 }
 
+// An edit does not wait for a field that it makes useless.
+TEST(GuidingField, StopsWhenItIsNotWanted) {
+    const Trials t = trials();
+    EXPECT_FALSE(GuidingField::learn(t.photons, emitted, t.paths, {}, Workers(2), [] { return false; }));
+    EXPECT_EQ(GuidingField::learn(t.photons, emitted, t.paths, {}, Workers(2), [] { return true; }), learned(t));
+}
+
 TEST(GuidingField, WithoutPhotonsLearnsNothing) {
     EXPECT_FALSE(learned({{}, trials().paths}).tables().roots);
     EXPECT_FALSE(learned({}).figures());

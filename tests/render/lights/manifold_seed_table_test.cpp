@@ -31,7 +31,8 @@ std::vector<LightRecord> some_lights() {
     lights[4].cone_height = 0;
     return lights;
 }
-ManifoldSeedTable table_of(std::span<const ChainPhoton> photons, const std::vector<LightRecord>& lights) {
+std::optional<ManifoldSeedTable> made(std::span<const ChainPhoton> photons, const std::vector<LightRecord>& lights,
+                                      const std::function<bool()>& wanted) {
     MaterialRecord materials[2]; // the second of a lamp of glass
     materials[1].flags = material_chains;
     std::vector<PartRecord> parts(9);
@@ -41,7 +42,10 @@ ManifoldSeedTable table_of(std::span<const ChainPhoton> photons, const std::vect
     scene.materials.materials = materials;
     scene.lights.lights = lights.data();
     scene.lights.count = int32_t(lights.size());
-    return ManifoldSeedTable(photons, scene);
+    return ManifoldSeedTable::make(photons, scene, wanted);
+}
+ManifoldSeedTable table_of(std::span<const ChainPhoton> photons, const std::vector<LightRecord>& lights) {
+    return made(photons, lights, {}).value();
 }
 // On a floor of 4 x 4 m: dense on the left, a hundredth of it on the right. Three quarters of the flux are the sun's, the others that of
 // the mesh's second triangle.
@@ -75,6 +79,12 @@ TEST(ManifoldSeedTable, CoversTheLightsThatPhotonsComeFrom) {
     // Systematic resampling: as many of the 256 seeds as the share of the flux, but for one.
     EXPECT_NEAR(double(t.groups[sun].share), 0.75, 1.01 / 256);
     EXPECT_FLOAT_EQ(t.groups[sun].share + t.groups[mesh].share, 1);
+}
+
+// An edit does not wait for a table that it makes useless.
+TEST(ManifoldSeedTable, StopsWhenItIsNotWanted) {
+    EXPECT_FALSE(made(some_photons(), some_lights(), [] { return false; }));
+    EXPECT_TRUE(made(some_photons(), some_lights(), [] { return true; }));
 }
 
 TEST(ManifoldSeedTable, PhotonsWithoutSizeOrValueAreIgnored) {
