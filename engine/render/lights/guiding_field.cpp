@@ -229,11 +229,6 @@ std::optional<PilotFigures> figures_of(const std::vector<GuidingRegion>& regions
 
 } // namespace
 
-GuidingField::GuidingField(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
-                           const CausticCasterTables& casters, const Workers& workers) {
-    build(photons, emitted, paths, casters, workers, {});
-}
-
 std::optional<GuidingField> GuidingField::learn(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
                                                 const CausticCasterTables& casters, const Workers& workers,
                                                 const std::function<bool()>& wanted) {

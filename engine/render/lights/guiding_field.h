@@ -28,10 +28,7 @@ class GuidingField {
 public:
     GuidingField() = default;
     // `photons`: the sum of their flux is `emitted` times the flux that arrives. `paths`: their values estimate the irradiance from
-    // other surfaces, sampled with `casters`.
-    GuidingField(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
-                 const CausticCasterTables& casters, const Workers& workers);
-    // The same, or nothing if `wanted` returned false meanwhile; empty: it does not.
+    // other surfaces, sampled with `casters`. Nothing if `wanted` returned false meanwhile; an empty `wanted` never does.
     static std::optional<GuidingField> learn(std::span<const GuidingTrial> photons, int64_t emitted, std::span<const GuidingTrial> paths,
                                              const CausticCasterTables& casters, const Workers& workers,
                                              const std::function<bool()>& wanted);

@@ -57,8 +57,6 @@ bool ends_chains(const SceneTables& scene, const LightRecord& light) {
 
 } // namespace
 
-ManifoldSeedTable::ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene) { build(photons, scene, {}); }
-
 std::optional<ManifoldSeedTable> ManifoldSeedTable::make(std::span<const ChainPhoton> photons, const SceneTables& scene,
                                                          const std::function<bool()>& wanted) {
     ManifoldSeedTable table;

@@ -18,9 +18,8 @@ namespace blush {
 class ManifoldSeedTable {
 public:
     ManifoldSeedTable() = default;
-    // Reads the lights, parts and materials of the scene. Empty if no photon has arrived by specular surfaces alone.
-    ManifoldSeedTable(std::span<const ChainPhoton> photons, const SceneTables& scene);
-    // The same, or nothing if `wanted` returned false meanwhile; empty: it does not.
+    // Reads the lights, parts and materials of the scene. Empty if no photon has arrived by specular surfaces alone. Nothing if `wanted`
+    // returned false meanwhile; an empty `wanted` never does.
     static std::optional<ManifoldSeedTable> make(std::span<const ChainPhoton> photons, const SceneTables& scene,
                                                  const std::function<bool()>& wanted);
 

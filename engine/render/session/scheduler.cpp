@@ -87,7 +87,7 @@ Work Scheduler::next() const {
         return work;
     }
     if (film_divider_ > 1) {
-        // Directly: one sample of a size between them is worse than the samples of the coarse film.
+        // Full resolution is next. An intermediate size would show one sample, with a higher error than the several of the coarse image.
         work.clear = true;
         return work;
     }

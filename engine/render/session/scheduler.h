@@ -27,8 +27,7 @@ public:
         double sample_seconds = 0;
     };
 
-    // Tracing time of the coarse image: half a frame of 60 Hz. Cancelling, resolving and drawing take the rest, and samples added until the
-    // next frame gain more than pixels would.
+    // Tracing time of the coarse image: half a frame of 60 Hz. Cancelling, resolving and drawing take the rest.
     static constexpr double first_image_seconds = 1.0 / 120;
     // The same with denoising, if each first image is denoised before it is shown and may be half as fine for it.
     static constexpr double first_denoised_seconds = 1.0 / 40;

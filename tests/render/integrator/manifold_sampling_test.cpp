@@ -142,7 +142,7 @@ TEST(ManifoldSampling, IsTheSameBitsFromEveryKernel) {
         const KernelContext context{&tables, &compiled.accel(), kernel_settings(settings, 16, 16), 3};
         std::vector<std::unique_ptr<TileScratch>> scratch(1);
         const auto photons = trace_caustic_photons(context, kernels_of("scalar").back(), Workers(1), scratch, [] { return true; });
-        const ManifoldSeedTable seeds(photons->chains, tables);
+        const ManifoldSeedTable seeds = ManifoldSeedTable::make(photons->chains, tables, {}).value();
         ASSERT_FALSE(seeds.empty());
         tables.manifolds = seeds.tables(tables.guides.casters);
         tables.guides = {};

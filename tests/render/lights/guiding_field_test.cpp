@@ -36,7 +36,7 @@ Trials trials(float scale = 1, float brightness = 1, float irradiance = 0.01f) {
 }
 
 GuidingField learned(const Trials& t, unsigned threads = 1, std::span<const CasterSphere> casters = {}) {
-    return GuidingField(t.photons, emitted, t.paths, {casters.data(), int32_t(casters.size())}, Workers(threads));
+    return GuidingField::learn(t.photons, emitted, t.paths, {casters.data(), int32_t(casters.size())}, Workers(threads), {}).value();
 }
 
 int32_t cell_at(const GuidingTables& t, const Vec3& position, const Vec3& normal = {0, 1, 0}) {

@@ -114,7 +114,7 @@ TEST(ManifoldSeedTable, SunsThatOverlapAreLeftToOtherStrategies) {
         scene.lights.count = 3;
         scene.lights.suns = suns.data();
         scene.lights.sun_count = 3;
-        const ManifoldSeedTable table(photons, scene);
+        const ManifoldSeedTable table = ManifoldSeedTable::make(photons, scene, {}).value();
         const ManifoldTables t = table.tables({});
         for (int light = 0; light < 3; ++light) EXPECT_EQ(t.group_of_light[light] >= 0, !overlap || light == 2) << overlap << light;
     }

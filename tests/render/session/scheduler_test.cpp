@@ -141,7 +141,7 @@ TEST(Scheduler, FullResolutionIsNextAndStays) {
     };
     EXPECT_EQ(dividers(0.001), (std::vector{1, 1, 1, 1, 1, 1, 1, 1}));
     EXPECT_EQ(dividers(0.1875), (std::vector{5, 5, 5, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(dividers(1), (std::vector{11, 11, 11, 11, 11, 1, 1, 1})) << "no size between them: its first sample has the higher error";
+    EXPECT_EQ(dividers(1), (std::vector{11, 11, 11, 11, 11, 1, 1, 1})) << "no intermediate size";
 }
 
 TEST(Scheduler, CoarseImagesGetSamplesForAShareOfAFullOne) {
