@@ -66,7 +66,6 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
 void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     clear();
     splats = false;
-    reuse = ReuseChoice(settings, scene);
     edges = EdgeChoice(settings, scene, transparent());
     begin_learning(field_effect, outdated != Outdated::film);
     highlights.reset();
@@ -151,7 +150,6 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
         FilmSize film = s.full_film();
         film.light_paths = film.light_paths || (s.divider == 1 && s.learned.light_paths().pays()); // before the film has its splats
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, film);
-        feature_report.push_back(s.reuse.report());
         feature_report.push_back(s.edges.report());
         for (FeatureUse& use : s.learned.report(s.uses_kept_field())) feature_report.push_back(std::move(use));
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
@@ -167,7 +165,7 @@ std::vector<Vec3> Renderer::resolve_error() {
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
     if (state_->correlates_pixels()) return measure_block_covariance(state_->film);
-    const int group_size = state_->splats ? 1 : reuse_group_size(state_->settings, state_->reuse.pilot());
+    const int group_size = state_->splats ? 1 : reuse_group_size(state_->settings, state_->learned.reuse().pilot());
     return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : measure_sampler_covariance(state_->film);
 }
 
@@ -219,7 +217,7 @@ Frame Renderer::resolve() {
 ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
-    const int group_size = s.splats ? 1 : blush::reuse_group_size(s.settings, s.reuse.pilot());
+    const int group_size = s.splats ? 1 : blush::reuse_group_size(s.settings, s.learned.reuse().pilot());
     ErrorEstimate error = s.correlates_pixels() ? s.film.estimate_error(s.workers, measure_block_covariance(s.film).products)
                                                 : blush::estimate_error(s.film, group_size, s.workers);
     // Both halves miss the same light, so their difference does not show that error.
@@ -248,7 +246,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     state.samples = s.samples;
     state.shares = s.sample_allocation.shares();
     if (s.settings.adaptive && first == 0 && in_mid_pilot(s.samples)) state.marked = s.pilot_variance.marked();
-    state.reuse_pilot = s.reuse.pilot();
+    state.reuse_pilot = s.learned.reuse().pilot();
     state.highlights = s.highlights;
     state.rays = s.rays;
     state.path_counts = s.path_counts;
@@ -279,7 +277,7 @@ Result<void> Renderer::load_film(const FilmState& state) {
         if (uint32_t(index) != FilmState::no_material) index = s.scene.material_index(Id<Material>{uint32_t(index)});
     });
     if (marked) s.pilot_variance.restore(state.marked);
-    if (state.reuse_pilot) s.reuse.decide(*state.reuse_pilot);
+    if (state.reuse_pilot) s.learned.decide_reuse(*state.reuse_pilot);
     if (state.highlights) s.highlights = state.highlights;
     s.first_is_rough = state.first_is_rough;
     s.samples = state.samples;

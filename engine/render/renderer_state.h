@@ -15,7 +15,6 @@
 #include "render/film/shadow_catcher.h"
 #include "render/pilots/edge_choice.h"
 #include "render/pilots/learned_sampling.h"
-#include "render/pilots/reuse_choice.h"
 #include "render/renderer.h"
 #include "render/tile_shape.h"
 
@@ -49,8 +48,7 @@ struct Renderer::State {
     Film film;
     SampleAllocation sample_allocation; // only for adaptive sampling, like the next
     PilotVariance pilot_variance;
-    ReuseChoice reuse;                            // of the scene and settings
-    EdgeChoice edges;                             // likewise, as the next
+    EdgeChoice edges;                             // of the scene and settings, as the next
     std::unique_ptr<PathReplacement> replacement; // of an integrator for comparison; null: path tracing
     bool replacement_is_ready = false;
     Vec3d replacement_origin{0, 0, 0};   // that its positions are relative to
@@ -88,9 +86,7 @@ struct Renderer::State {
     // A sample of this index follows the decisions of the pilots for the sample of the returned index; 0: none.
     int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
     int reuse_group_size(int64_t sample) const {
-        if (divider > 1) return reuse.first_group_size();
-        // Light paths and manifold sampling do not know the densities of path reuse.
-        return decided_as(sample) > 0 && learned.excludes_reuse() ? 1 : reuse.group_size(decided_as(sample));
+        return divider > 1 ? learned.reuse().first_group_size() : learned.reuse_group_size(decided_as(sample));
     }
     // True if the first sample uses the field that an edit left over: the pilots have not run. Coarse images do not: they have so few
     // samples that the caustic, which most of them miss without, would be noise.

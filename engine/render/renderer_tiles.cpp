@@ -5,7 +5,6 @@
 #include "render/integrator/reuse_groups.h"
 #include "render/kernels/stage_timer.h"
 #include "render/pilots/edge_pilot.h"
-#include "render/pilots/reuse_pilot.h"
 #include "render/renderer_state.h"
 
 #include <algorithm>
@@ -60,8 +59,8 @@ const CatcherColumns* Renderer::State::shadows_of(const KernelContext& context, 
 // The rendered part of the film. Path reuse needs whole groups.
 PixelRect Renderer::State::rendered_pixels() const {
     PixelRect r = pixels_of(settings.region, film.width(), film.height());
-    if (reuse.first_group_size() <= 1) return r;
-    const ReuseGroups groups = reuse_groups(reuse.first_group_size());
+    if (learned.reuse().first_group_size() <= 1) return r;
+    const ReuseGroups groups = reuse_groups(learned.reuse().first_group_size());
     const auto down = [](int x, int block) { return x / block * block; };
     const auto up = [](int x, int block) { return (x + block - 1) / block * block; };
     return {down(r.x0, groups.block_width), down(r.y0, groups.block_height), std::min(up(r.x1, groups.block_width), film.width()),
@@ -177,17 +176,11 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
 
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(const Wanted& wanted) {
-    const auto may_reuse = [&] { return reuse.needs_pilot() && !learned.excludes_reuse(); };
-    if (!learned.needs_pilot() && !may_reuse() && !edges.needs_pilot() && !needs_highlights()) return true;
+    if (!learned.needs_pilot() && !edges.needs_pilot() && !needs_highlights()) return true;
     SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);
     if (!learned.decide(context, *kernel, workers, replays, wanted)) return false;
     tables = learned.tables(scene.tables(), 1);
-    if (may_reuse()) {
-        const auto measured = measure_path_reuse(context, *kernel, workers, replays, wanted);
-        if (!measured) return false;
-        reuse.decide(*measured);
-    }
     if (edges.needs_pilot()) {
         auto found = find_edge_pixels(context, *kernel, workers, replays, wanted);
         if (!found) return false;

@@ -7,6 +7,7 @@ namespace blush {
 RenderSettings recommended_settings() {
     RenderSettings settings;
     settings.adaptive = true;
+    settings.roulette.rule = Roulette::Rule::automatic;
     settings.reuse = reuse_auto;
     settings.mis_compensation = true;
     settings.smooth_edges = true;

@@ -11,14 +11,18 @@
 namespace blush {
 
 // Russian roulette: rule for the survival probability q of a path after a bounce, given its throughput beta from the camera on.
-// Arvo and Kirk 1990. Survivors are divided by q, so every rule except biased_cut is unbiased.
+// Arvo and Kirk 1990. Survivors are divided by q, so every rule except biased_cut is unbiased. A pilot learns what `adjoint` and
+// `efficiency` need (render/roulette/adjoint_field.h); the first sample is rendered by `sqrt` instead of these and of `automatic`.
 struct Roulette {
     enum class Rule : uint8_t {
+        automatic,  // of sqrt, adjoint and efficiency the one with the least variance x work, as a pilot measures
         off,        // q = 1
         max,        // q = largest component of beta
         luminance,  // q = luminance of beta
         sqrt,       // q = sqrt(largest component)
         constant,   // q = probability
+        adjoint,    // q = luminance of beta x light that paths find behind this place / luminance of the pixel
+        efficiency, // q that gives the image the least variance x work (EARS)
         biased_cut, // ends paths with max(beta) < threshold without compensation: biased on purpose, for teaching
     };
     Rule rule = Rule::sqrt;
@@ -27,6 +31,8 @@ struct Roulette {
     float cap = 1;            // q <= cap
     float probability = 0.8f; // constant
     float threshold = 0.1f;   // biased_cut
+    // True if the rule needs a pilot.
+    bool learns() const { return rule == Rule::automatic || rule == Rule::adjoint || rule == Rule::efficiency; }
     bool operator==(const Roulette&) const = default;
 };
 

@@ -12,12 +12,15 @@
 namespace blush {
 namespace {
 
-constexpr std::array<EnumName<Roulette::Rule>, 6> roulette_words{{
+constexpr std::array<EnumName<Roulette::Rule>, 9> roulette_words{{
+    {Roulette::Rule::automatic, "auto"},
     {Roulette::Rule::off, "off"},
     {Roulette::Rule::max, "max"},
     {Roulette::Rule::luminance, "luminance"},
     {Roulette::Rule::sqrt, "sqrt"},
     {Roulette::Rule::constant, "constant"},
+    {Roulette::Rule::adjoint, "adjoint"},
+    {Roulette::Rule::efficiency, "efficiency"},
     {Roulette::Rule::biased_cut, "biased-cut"},
 }};
 constexpr std::array<EnumName<Strategy>, 3> strategy_words{{

@@ -13,7 +13,6 @@ namespace blush {
 // The share of samples that are distributed without learned visibility (defensive mixture, Hesterberg 1995): so no receiver has more than
 // the inverse of it times the variance that it has without.
 constexpr float unlearned_share = 1.f / 16;
-constexpr int visibility_sides = 6;       // of a normal: its largest component and the sign of that
 constexpr int visibility_word_lights = 4; // factors in a word, one byte each, at least 1
 constexpr int max_visibility_lights = 32;
 
@@ -29,14 +28,9 @@ struct LightVisibilityGrid {
 
 namespace blush::inline BLUSH_ISA {
 
-// First word of the receiver's row. A zero normal has a side, too.
+// First word of the receiver's row.
 template <class F> Int<F> visibility_row(const LightVisibilityGrid& visibility, const Vec<F>& position, const Vec<F>& normal) {
-    const Vec<F> along = abs(normal);
-    const Mask<F> is_x = along.x >= along.y && along.x >= along.z, is_y = along.y >= along.z;
-    const F component = select(is_x, normal.x, select(is_y, normal.y, normal.z));
-    const Int<F> axis = select(is_x, Int<F>(0), select(is_y, Int<F>(2), Int<F>(4)));
-    const Int<F> side = select(component < F(0.f), Int<F>(axis + 1), axis);
-    return (receiver_cell<F>(visibility.grid, position) * visibility_sides + side) * visibility.words;
+    return (receiver_cell<F>(visibility.grid, position) * receiver_sides + receiver_side<F>(normal)) * visibility.words;
 }
 
 // Multiplies the importances of[0..count) by the factors of the receiver's row, and mixes them with the importances as they were.

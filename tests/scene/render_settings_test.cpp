@@ -42,7 +42,7 @@ TEST(Roulette, TextRoundTrips) {
     std::uniform_real_distribution<float> u(0.001f, 1);
     for (int i = 0; i < 1000; ++i) {
         Roulette r;
-        r.rule = Roulette::Rule(rng() % 6);
+        r.rule = Roulette::Rule(rng() % 9);
         r.start = int(rng() % 10);
         if (rng() % 2) r.cap = u(rng);
         if (rng() % 2) r.floor = r.cap * u(rng);
@@ -59,8 +59,9 @@ TEST(Roulette, BadTextIsRefusedWithTheReason) {
         const Result<Roulette> r = parse_roulette(text);
         return r ? "accepted" : r.error().text();
     };
-    EXPECT_EQ(error("often"), "unknown roulette rule \"often\" (known: off, max, luminance, sqrt, constant, biased-cut)");
-    EXPECT_EQ(error(""), "unknown roulette rule \"\" (known: off, max, luminance, sqrt, constant, biased-cut)");
+    EXPECT_EQ(error("often"),
+              "unknown roulette rule \"often\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, biased-cut)");
+    EXPECT_EQ(error(""), "unknown roulette rule \"\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, biased-cut)");
     EXPECT_EQ(error("constant"), "roulette rule constant needs a number, as in constant=0.5");
     EXPECT_EQ(error("max=1"), "roulette rule max takes no number");
     EXPECT_EQ(error("constant=0"), "roulette's constant must be a number above 0 and at most 1, not \"0\"");

@@ -233,7 +233,7 @@ std::optional<Edit> make(Rng& rng, const Project& p, std::type_identity<SetRende
     RenderSettings r = p.render;
     switch (whole(rng, 0, 13)) {
     case 0: r.max_bounces = whole(rng, 0, 6); break;
-    case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 5)); break;
+    case 1: r.roulette.rule = Roulette::Rule(whole(rng, 0, 8)); break;
     case 2: r.strategy = Strategy(whole(rng, 0, 2)); break;
     case 3: r.filter = PixelFilter(whole(rng, 0, 1)); break;
     case 4: r.seed = uint32_t(whole(rng, 0, 1000)); break;

@@ -59,12 +59,14 @@ struct Side {
         by_batch = {};
         whole = {};
     }
-    bool render(const Scene& scene, int64_t round, int spp, const std::function<bool()>& wanted) {
+    // Samples [first, first + spp). Without the time of pilots, which an image needs once.
+    bool render(const Scene& scene, int64_t round, int64_t first, int spp, const std::function<bool()>& wanted) {
         settings.seed = uint32_t(round);
         renderer->update(scene, settings);
         renderer->clear();
+        if (first > 0 && !renderer->decide(wanted)) return false;
         const auto begin = std::chrono::steady_clock::now();
-        if (!renderer->render(0, spp, wanted)) return false;
+        if (!renderer->render(first, spp, wanted)) return false;
         const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         renderer->resolve(frame);
         seconds += took;
@@ -169,8 +171,10 @@ bool RouletteComparison::round(const std::function<bool()>& wanted) {
     State& s = *state_;
     Side* const turns[2] = {&s.rule, &s.none};
     const size_t first = size_t(s.report.rounds % 2);
+    // The first sample of an image follows no learned rule.
+    const int64_t sample = s.rule.settings.roulette.learns() ? 1 : 0;
     for (const size_t turn : {first, 1 - first})
-        if (!turns[turn]->render(s.scene, s.report.rounds, s.report.spp, wanted)) return false;
+        if (!turns[turn]->render(s.scene, s.report.rounds, sample, s.report.spp, wanted)) return false;
     ++s.report.rounds;
     s.report.rule = s.rule.figures(s.report.spp);
     s.report.none = s.none.figures(s.report.spp);

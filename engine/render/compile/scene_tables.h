@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "shading/environment.h"
+#include "shading/learned_adjoint.h"
 #include "shading/light.h"
 #include "shading/light_emission.h"
 #include "shading/manifold_seeds.h"
@@ -78,6 +79,7 @@ struct SceneTables {
     GuideTables guides;
     EmissionTables emission;  // null: no light paths
     ManifoldTables manifolds; // null: no manifold sampling
+    AdjointTables adjoint;    // empty: roulette reads the throughput alone
     GroupTables groups;       // null: no light mix
     LinkTables links;
     bool blends = false; // some part may be neither opaque nor clear: shadow rays carry its transmittance

@@ -38,6 +38,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         Path<float> path = load_path<s, float>(*now, 0);
         path.part = now->part[0];
         path.dispersed = now->dispersed[0];
+        load_importance<float>(scratch, *context.scene, path, true);
         ReplayedVertex vertex{bounce, path, load_hit<float>(scratch.hits, 0), {}, {}};
         vertex.panes = to_float(radiance() - traced);
         vertex.step = scatter<s, float>(*context.scene, context.settings, vertex.path, vertex.hit, bounce, true);

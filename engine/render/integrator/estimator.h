@@ -35,6 +35,7 @@ template <Features S, class F> Path<F> begin_path(const SceneTables& scene, cons
     path.key = sampler.key;
     path.index = sampler.index;
     path.slot = slot;
+    path.importance = scene.adjoint.empty() ? F(1.f) : pixel_importance<F>(scene.adjoint, x, y);
     path.part = Int<F>(from_camera);
     path.dispersed = Int<F>(0);
     path.light_ratio = path.emission_ratio = F(0.f);
@@ -101,7 +102,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const Mask<F> same_side = (indirect.bsdf.wi.z > F(0.f)) == indirect.outward;
     out.continues = scatters && indirect.bsdf.valid && same_side && has_light(next_beta);
     out.weights.guided = indirect.guided;
-    roulette<S, F>(settings, p, indirect, bounce, choice.y(), next_beta, out);
+    roulette<S, F>(scene, settings, path, p, indirect, bounce, choice.y(), next_beta, out);
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;
     out.crosses = indirect.outward != (dot(side.wo, p.shading.ng) > F(0.f));

@@ -13,6 +13,7 @@ template <class F> struct Path {
     Vec<F> normal;      // receiver normal at the ray's origin; only with Feature::light_tree
     UInt<F> key, index; // of the sampler
     Int<F> slot;        // index of the sample in the tile
+    F importance;       // of the pixel, 1/nits (shading/learned_adjoint.h); only if the adjoint has been learned
     F cone;             // footprint in metres at the ray's origin (ray_cone.h); only with Feature::textures
     Int<F> part;        // that the ray left, -1: the camera; only if lights may be linked
     Int<F> dispersed;   // 1: carries a single wavelength, 0: all; only with Feature::dispersion

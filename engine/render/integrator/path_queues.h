@@ -21,6 +21,7 @@ template <Features S, class F> Path<F> load_path(const PathQueue& q, int k) {
     p.key = load<UInt<F>>(q.key + k);
     p.index = load<UInt<F>>(q.index + k);
     p.slot = load<Int<F>>(q.slot + k);
+    p.importance = F(1.f);
     p.light_ratio = p.emission_ratio = F(0.f);
     p.chain = Int<F>(0);
     if constexpr (S.has(Feature::light_paths)) {
@@ -157,6 +158,22 @@ template <class F> void record_guiding(GuidingTrials& guiding, const Path<F>& ne
         guiding.add({at(next.ray.origin), normal, direction, 0}, lane(next.slot, i),
                     cosine / (double(lane(next.pdf, i)) * double(luminance(at(next.beta)))));
     });
+}
+
+// The same for the adjoint; smooth lobes meet no roulette. Counts the rays that have arrived in the lanes of `active`.
+template <class F> void record_continuations(ContinuationTrials& trials, const Path<F>& path, const Path<F>& next, const Mask<F>& continues,
+                                             const Mask<F>& active) {
+    for_each_lane(bits(active), [&](int i) { trials.note_ray(lane(path.slot, i)); });
+    for_each_lane(bits(continues && next.pdf < F(infinity)), [&](int i) {
+        const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
+        trials.add(at(next.ray.origin), at(next.normal), lane(path.slot, i), double(luminance(at(next.beta))));
+    });
+}
+
+// The importance of the paths' pixels, if they have one.
+template <class F> void load_importance(const TileScratch& scratch, const SceneTables& scene, Path<F>& path, const Mask<F>& active) {
+    if (scene.adjoint.empty()) return;
+    path.importance = gather(scratch.importance->data, select(active, path.slot, Int<F>(0)));
 }
 
 // Replaces the camera rays in the queue by photons.

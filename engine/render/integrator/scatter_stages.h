@@ -12,6 +12,13 @@ namespace blush::inline BLUSH_ISA {
 // True if not black; NaN counts as light, so that it reaches the film and is reported.
 template <class F> Mask<F> has_light(const Vec<F>& v) { return !(v.x <= F(0.f) && v.y <= F(0.f) && v.z <= F(0.f)); }
 
+// This order propagates NaN.
+template <class F> F limited_survival(const Roulette& r, const F& q) { return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); }
+
+// The learned adjoint may lack light that its pilot has not found. A path is no less likely to survive than this share of its throughput,
+// so such light has at most the inverse of it times the weight that it has with `max`.
+constexpr float least_adjoint_share = 0.1f;
+
 // Survival probability of a path with throughput beta (render_settings.h has the rules); biased_cut gives 0 or 1.
 template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta) {
     F q = F(1.f);
@@ -19,11 +26,21 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     case Roulette::Rule::off: return F(1.f);
     case Roulette::Rule::max: q = max_component(beta); break;
     case Roulette::Rule::luminance: q = luminance(beta); break;
+    case Roulette::Rule::automatic: // these before they have been learned, and for paths that do not begin at the camera
+    case Roulette::Rule::adjoint:
+    case Roulette::Rule::efficiency:
     case Roulette::Rule::sqrt: q = sqrt(max_component(beta)); break;
     case Roulette::Rule::constant: q = F(r.probability); break;
     case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));
     }
-    return min(F(min(r.cap, 1.f)), max(F(r.floor), q)); // this order propagates NaN
+    return limited_survival<F>(r, q);
+}
+
+// The same by the learned adjoint.
+template <class F>
+F adjoint_survival(const Roulette& r, const AdjointTables& adjoint, const Path<F>& path, const ShadingPoint<F>& p, const Vec<F>& beta) {
+    const F learned = luminance(beta) * path.importance * adjoint_value<F>(adjoint, p.surface.position, p.shading.ns);
+    return limited_survival<F>(r, max(F(least_adjoint_share * max_component(beta)), learned));
 }
 
 // What sample_direct and sample_indirect share.
@@ -154,7 +171,8 @@ template <Features S, class F>
 
 // Russian roulette (Arvo and Kirk 1990): the path survives with probability q, its throughput `beta` is divided by q. `u`: random
 // number in [0, 1).
-template <Features S, class F> [[gnu::always_inline]] inline void roulette(const EstimatorSettings& settings, const ShadingPoint<F>& p,
+template <Features S, class F> [[gnu::always_inline]] inline void roulette(const SceneTables& scene, const EstimatorSettings& settings,
+                                                                           const Path<F>& path, const ShadingPoint<F>& p,
                                                                            const IndirectSample<F>& s, int bounce, const F& u, Vec<F>& beta,
                                                                            Step<F>& out) {
     if (bounce + 1 < settings.roulette.start || settings.roulette.rule == Roulette::Rule::off) return;
@@ -168,7 +186,9 @@ template <Features S, class F> [[gnu::always_inline]] inline void roulette(const
     // Do not apply Russian roulette at delta lobes before bounce 17: such paths are likely caustic paths. A cap is needed for
     // scenes with delta lobes only.
     const Mask<F> rr_applied = !s.bsdf.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
-    const F q = select(rr_applied, survival_probability(settings.roulette, rr_beta), F(1.f));
+    const F survival = scene.adjoint.empty() ? survival_probability(settings.roulette, rr_beta)
+                                             : adjoint_survival<F>(settings.roulette, scene.adjoint, path, p, rr_beta);
+    const F q = select(rr_applied, survival, F(1.f));
     out.weights.survival = q;
     out.weights.rr_applied = out.continues && rr_applied;
     out.continues = out.continues && !(u >= q);
@@ -186,6 +206,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void next_path(cons
     next.key = path.key;
     next.index = path.index;
     next.slot = path.slot;
+    next.importance = path.importance;
     next.light_ratio = next.emission_ratio = F(0.f);
     next.chain = Int<F>(0);
     if constexpr (S.has(Feature::links)) next.part = p.surface.part;

@@ -103,6 +103,7 @@ template <Features S, class F>
             }
     const uint32_t half[2] = {randomisation(context.seed, 0), randomisation(context.seed, 1)};
     q.size = 0;
+    if (!context.scene->adjoint.empty() && !scratch.importance) scratch.importance = std::make_unique<Column<float>>();
     for (int k = 0; k < n; k += width<F>) {
         const F x = load<F>(xs + k), y = load<F>(ys + k);
         const UInt<F> sample = load<UInt<F>>(samples + k);
@@ -112,14 +113,17 @@ template <Features S, class F>
         const Sampler<F> sampler = context.settings.sampler == SamplerType::random ? independent_sampler<F>(column, row, random, index)
                                                                                    : pixel_sampler<F>(column, row, random, index);
         const Int<F> slot = iota<F>() + k;
+        const Path<F> path = begin_path<S, F>(*context.scene, context.settings, x, y, sampler, slot);
+        if (!context.scene->adjoint.empty()) store(scratch.importance->data + k, path.importance);
         if constexpr (S.has(Feature::links)) store(q.part + q.size, Int<F>(from_camera));
         if constexpr (S.has(Feature::dispersion)) store(q.dispersed + q.size, Int<F>(0));
-        append<S, F>(q, begin_path<S, F>(*context.scene, context.settings, x, y, sampler, slot), as_mask(slot < n));
+        append<S, F>(q, path, as_mask(slot < n));
     }
     if (scratch.photons) emit_photons(*scratch.photons, q);
     std::fill_n(scratch.r.data, n, 0.0);
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
+    if (scratch.continuations) scratch.continuations->begin(n);
     if (scratch.groups) scratch.groups->clear(n);
     if (scratch.strategies) scratch.strategies->clear(n);
     if (!scratch.roulette) return;
@@ -151,6 +155,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
         if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
         const Mask<F> active = as_mask(iota<F>() + k < now.size);
+        load_importance<F>(scratch, *context.scene, path, active);
         Step<F> step =
             scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active, light_timer.next());
         Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
@@ -193,6 +198,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if (scratch.strategies) note_guided<F>(*scratch.strategies, now.slot + k, step);
         if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
         if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
+        if (scratch.continuations) record_continuations<F>(*scratch.continuations, path, step.next, step.continues, active);
         if (scratch.photons) record_photons<F>(*scratch.photons, path, step, bounce, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
@@ -266,11 +272,13 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         timer.end(Stage::shadow);
         if (scratch.strategies) scratch.strategies->next_bounce();
         if (scratch.guiding) scratch.guiding->note_arrived(radiance_of);
+        if (scratch.continuations) scratch.continuations->note_arrived(radiance_of);
         std::swap(now, next);
     }
     if constexpr (S.has(Feature::light_paths))
         if (scratch.bounces) finish_chained_light(scratch, job.paths());
     if (scratch.guiding) scratch.guiding->finish(radiance_of);
+    if (scratch.continuations) scratch.continuations->finish(radiance_of);
     if (!unshared_is_stashed) return;
     reuse_paths<F>(context, job, scratch);
     timer.end(Stage::reuse);

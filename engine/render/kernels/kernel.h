@@ -14,6 +14,7 @@
 #include "render/kernels/manifold_columns.h"
 #include "render/kernels/reuse_columns.h"
 #include "render/kernels/strategy_columns.h"
+#include "render/lights/continuation_trial.h"
 #include "render/lights/escape_trial.h"
 #include "render/lights/guiding_trial.h"
 #include "render/lights/shadow_trial.h"
@@ -90,21 +91,24 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<double> r, g, b;                           // radiance; single precision would lose a long path's last terms
-    std::unique_ptr<FirstHitColumns> first;           // null: not needed
-    std::unique_ptr<BounceColumns> bounces;           // null: not needed
-    std::unique_ptr<GroupColumns> groups;             // null: no light mix
-    std::unique_ptr<StrategyColumns> strategies;      // null: not needed
-    std::unique_ptr<ReuseColumns> reuse;              // allocated by the first kernel with path reuse
-    std::unique_ptr<RouletteColumns> roulette;        // null: not needed
-    std::unique_ptr<PaneColumns> panes;               // allocated by the first kernel with panes
-    std::unique_ptr<Column<float>> background_share;  // by path of the queue; allocated by the first kernel that needs it
-    std::unique_ptr<std::vector<ShadowTrial>> trials; // of the tile's shadow rays, accumulated; null: not recorded
-    std::unique_ptr<EscapeTrials> escapes;            // null: not recorded
-    std::unique_ptr<GuidingTrials> guiding;           // null: not recorded; not with path reuse
-    std::unique_ptr<PhotonTrials> photons;            // null: paths begin at the camera; else one for each path of the tile
-    std::unique_ptr<LightPathColumns> light_paths;    // null: no light paths
-    std::unique_ptr<ManifoldColumns> manifolds;       // allocated by the first kernel with manifold sampling
+    Column<double> r, g, b;                            // radiance; single precision would lose a long path's last terms
+    std::unique_ptr<FirstHitColumns> first;            // null: not needed
+    std::unique_ptr<BounceColumns> bounces;            // null: not needed
+    std::unique_ptr<GroupColumns> groups;              // null: no light mix
+    std::unique_ptr<StrategyColumns> strategies;       // null: not needed
+    std::unique_ptr<ReuseColumns> reuse;               // allocated by the first kernel with path reuse
+    std::unique_ptr<RouletteColumns> roulette;         // null: not needed
+    std::unique_ptr<PaneColumns> panes;                // allocated by the first kernel with panes
+    std::unique_ptr<Column<float>> background_share;   // by path of the queue; allocated by the first kernel that needs it
+    std::unique_ptr<std::vector<ShadowTrial>> trials;  // of the tile's shadow rays, accumulated; null: not recorded
+    std::unique_ptr<EscapeTrials> escapes;             // null: not recorded
+    std::unique_ptr<GuidingTrials> guiding;            // null: not recorded; not with path reuse
+    std::unique_ptr<ContinuationTrials> continuations; // null: not recorded; not with path reuse
+    std::unique_ptr<Column<float>>
+        importance;                        // of the slot's pixel (shading/learned_adjoint.h); allocated by the first kernel that needs it
+    std::unique_ptr<PhotonTrials> photons; // null: paths begin at the camera; else one for each path of the tile
+    std::unique_ptr<LightPathColumns> light_paths;                                  // null: no light paths
+    std::unique_ptr<ManifoldColumns> manifolds;                                     // allocated by the first kernel with manifold sampling
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
+#include "render/lights/light_ahead.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,30 +49,22 @@ struct PhotonTrials {
 struct GuidingTrials {
     std::vector<GuidingTrial> all;
 
-    // `pdf`: of the direction times beta's luminance behind the vertex over the cosine: what radiance is divided by.
+    // `factor`: cosine over pdf of the direction and luminance of the throughput behind the vertex: what radiance is multiplied by.
     void add(const GuidingTrial& trial, int slot, double factor) {
         all.push_back(trial);
-        open.push_back({slot, factor, 0});
+        factors_.push_back(factor);
+        ahead_.add(slot);
     }
-    // Call when the light that arrives at the last vertices has been added to the slots: later light comes from the directions of the
-    // trials added since the last call. `radiance(slot)`: luminance so far.
-    template <class Radiance> void note_arrived(const Radiance& radiance) {
-        for (; noted < open.size(); ++noted) open[noted].before = radiance(open[noted].slot);
-    }
-    // Call at the end of the tile.
+    template <class Radiance> void note_arrived(const Radiance& radiance) { ahead_.note_arrived(radiance); }
     template <class Radiance> void finish(const Radiance& radiance) {
-        const size_t first = all.size() - open.size();
-        for (size_t k = 0; k < open.size(); ++k) all[first + k].value = float((radiance(open[k].slot) - open[k].before) * open[k].factor);
-        open.clear();
-        noted = 0;
+        const size_t first = all.size() - ahead_.size();
+        ahead_.finish(radiance, [&](size_t k, int, double luminance) { all[first + k].value = float(luminance * factors_[k]); });
+        factors_.clear();
     }
 
-    struct Open {
-        int slot;
-        double factor, before; // cosine / (pdf times luminance of the throughput); luminance of the slot's radiance at the vertex
-    };
-    std::vector<Open> open; // of this tile's trials
-    size_t noted = 0;
+private:
+    LightAhead ahead_;
+    std::vector<double> factors_;
 };
 
 } // namespace blush

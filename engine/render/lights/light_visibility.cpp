@@ -45,15 +45,14 @@ LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const Ligh
     const ReceiverGrid grid = make_receiver_grid(positions_of(trials), cells_along_longest);
     if (grid.cells_per_metre == 0) return;
     shape_ = {.factors = nullptr, .words = (groups + visibility_word_lights - 1) / visibility_word_lights, .grid = grid};
-    const auto cells = size_t(grid.count()), rows = cells * visibility_sides;
+    const auto cells = size_t(grid.count()), rows = cells * receiver_sides;
     const CellBlocks blocks{grid, block};
     const auto block_of = [&](size_t cell) { return size_t(blocks.of(int32_t(cell))); };
     std::vector<Count> of_scene(g), of_block(size_t(blocks.count()) * g), of_cell(cells * g), of_row(rows * g);
     for (const ShadowTrial& t : trials) {
         const int group = is_finite_position(t.position) ? group_of(lights, t.light) : -1;
         if (group < 0) continue;
-        const size_t row = size_t(visibility_row<float>(shape_, t.position, t.normal)) / size_t(shape_.words),
-                     cell = row / visibility_sides;
+        const size_t row = size_t(visibility_row<float>(shape_, t.position, t.normal)) / size_t(shape_.words), cell = row / receiver_sides;
         of_scene[size_t(group)].add(t);
         of_block[block_of(cell) * g + size_t(group)].add(t);
         of_cell[cell * g + size_t(group)].add(t);
@@ -63,7 +62,7 @@ LightVisibility::LightVisibility(std::span<const ShadowTrial> trials, const Ligh
     factors_.assign(rows * size_t(shape_.words), 0);
     double log_ratios = 0, weights = 0;
     for (size_t row = 0; row < rows; ++row) {
-        const size_t cell = row / visibility_sides, in_block = block_of(cell);
+        const size_t cell = row / receiver_sides, in_block = block_of(cell);
         // The importances of the row's receivers, up to a factor, are the trials' shares: lights were selected in proportion to them.
         double sum = 0, sum_visible = 0, sum_root = 0;
         for (size_t k = 0; k < g; ++k) {

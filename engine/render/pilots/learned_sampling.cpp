@@ -4,7 +4,9 @@
 #include "render/pilots/guiding_pilot.h"
 #include "render/pilots/light_path_pilot.h"
 #include "render/pilots/portal_pilot.h"
+#include "render/pilots/reuse_pilot.h"
 #include "render/pilots/visibility_pilot.h"
+#include "render/roulette/adjoint_pilot.h"
 
 #include <optional>
 #include <utility>
@@ -15,7 +17,7 @@ LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderSce
                                  const CausticOptions& options)
     : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
       light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options.manifold_sampling),
-      scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
+      reuse_(settings, scene), adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
 
 void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
     if (!guiding_.needs_pilot()) return;
@@ -60,8 +62,14 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         if (!traced) return std::nullopt;
         return measure_manifolds(with, *traced, scene.guides.casters, chains, light_paths_.pays() ? chains : own, others...);
     };
+    const auto learn_roulette = [&](const KernelContext& with, auto&&... others) -> std::optional<AdjointPilot> {
+        if (excludes_reuse() && with.settings.roulette.rule == Roulette::Rule::automatic)
+            return AdjointPilot{.why_not = "rare light of caustics: a pilot is too short to tell what roulette does to it"};
+        return learn_adjoint(with, reuse_group_size(1), others...);
+    };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&
-           run(light_paths_, measure_paths) && run(manifolds_, measure_chains);
+           run(light_paths_, measure_paths) && run(manifolds_, measure_chains) && (excludes_reuse() || run(reuse_, measure_path_reuse)) &&
+           run(adjoint_, learn_roulette);
 }
 
 } // namespace blush

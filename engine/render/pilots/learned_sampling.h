@@ -1,4 +1,5 @@
-// What pilots learn about sampling lights and directions: visibility of lights, portals, path guiding, light paths, manifold sampling.
+// What pilots learn about sampling lights and directions: visibility of lights, portals, path guiding, light paths, manifold sampling; and
+// about what becomes of paths: path reuse and Russian roulette.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,7 +11,9 @@
 #include "render/pilots/light_path_choice.h"
 #include "render/pilots/manifold_choice.h"
 #include "render/pilots/portal_choice.h"
+#include "render/pilots/reuse_choice.h"
 #include "render/pilots/visibility_choice.h"
+#include "render/roulette/adjoint_choice.h"
 
 #include <cstdint>
 #include <functional>
@@ -36,7 +39,7 @@ public:
 
     bool needs_pilot() const {
         return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() || light_paths_.needs_pilot() ||
-               manifolds_.needs_pilot();
+               manifolds_.needs_pilot() || (reuse_.needs_pilot() && !excludes_reuse()) || adjoint_.needs_pilot();
     }
     // Runs the pilots that are needed; each measures the samples as those before it have decided. `context`: as for the film at full
     // resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. False if
@@ -45,7 +48,9 @@ public:
                 const std::function<bool()>& wanted);
 
     // True if other samples than the first are rendered in another way.
-    bool pays() const { return visibility_.pays() || portals_.pays() || guiding_.pays() || light_paths_.pays() || manifolds_.pays(); }
+    bool pays() const {
+        return visibility_.pays() || portals_.pays() || guiding_.pays() || light_paths_.pays() || manifolds_.pays() || adjoint_.pays();
+    }
     // True if the noise of a first sample without would be more than twice that of the others: below, discarding it would lose more than
     // its noise takes from the mean. Always with light paths, whose share of the image is missing there.
     bool renews_first() const {
@@ -55,7 +60,7 @@ public:
     // the scene.
     SceneTables tables(const SceneTables& scene, int64_t sample) const {
         const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
-        return manifolds_.tables(light_paths_.tables(t, sample), sample);
+        return adjoint_.tables(manifolds_.tables(light_paths_.tables(t, sample), sample), sample);
     }
     // Images begin without it from now on.
     void drop_field() { kept_.reset(); }
@@ -67,13 +72,19 @@ public:
         return scene;
     }
     const LightPathChoice& light_paths() const { return light_paths_; }
-    // True if samples are connected to other vertices than path reuse knows.
+    // True if samples are connected to other vertices than path reuse knows, by densities that it does not know.
     bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
+    const ReuseChoice& reuse() const { return reuse_; }
+    // The decision of its pilot, as saved with samples.
+    void decide_reuse(const PilotFigures& pilot) { reuse_.decide(pilot); }
+    // Pixels in a group of path reuse for a sample of this index at full resolution; 1: none.
+    int reuse_group_size(int64_t sample) const { return sample > 0 && excludes_reuse() ? 1 : reuse_.group_size(sample); }
 
     // `kept`: samples are rendered with kept_tables().
     FeatureReport report(bool kept = false) const {
-        return {visibility_.report(), portals_.report(), guiding_.report(kept ? kept_field() : nullptr), light_paths_.report(),
-                manifolds_.report()};
+        return {visibility_.report(),  portals_.report(),   guiding_.report(kept ? kept_field() : nullptr),
+                light_paths_.report(), manifolds_.report(), reuse_.report(),
+                adjoint_.report()};
     }
 
 private:
@@ -82,6 +93,8 @@ private:
     GuidingChoice guiding_;
     LightPathChoice light_paths_;
     ManifoldChoice manifolds_;
+    ReuseChoice reuse_;
+    AdjointChoice adjoint_;
     CasterSphere scene_sphere_{};
     Vec3d origin_{0, 0, 0};
     std::optional<KeptField> kept_;

@@ -78,7 +78,8 @@ RouletteReport report_of(const Roulette& roulette, int max_bounces, int rounds) 
 }
 
 TEST(RouletteComparison, UnbiasedRulesPass) {
-    for (const char* text : {"max,start=3", "luminance,start=1", "sqrt,start=2", "constant=0.6,start=1", "max,start=1,cap=0.5"}) {
+    for (const char* text : {"max,start=3", "luminance,start=1", "sqrt,start=2", "constant=0.6,start=1", "max,start=1,cap=0.5",
+                             "adjoint,start=1", "efficiency,start=2"}) {
         const RouletteReport report = report_of(*parse_roulette(text), unlimited_bounces, 24);
         EXPECT_FALSE(report.biased()) << text;
         EXPECT_LT(report.rule.path_length, report.none.path_length) << text;

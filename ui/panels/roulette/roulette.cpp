@@ -26,6 +26,9 @@ std::string formula(const Roulette& r) {
     case Roulette::Rule::luminance: q = "Y(beta)"; break;
     case Roulette::Rule::sqrt: q = "sqrt(max(beta))"; break;
     case Roulette::Rule::constant: q = fmt::format("{:.3g}", r.probability); break;
+    case Roulette::Rule::automatic: q = "sqrt(max(beta)) or learned"; break;
+    case Roulette::Rule::adjoint: q = "Y(beta) E[L] / I"; break;
+    case Roulette::Rule::efficiency: q = "Y(beta) / I sqrt(E[L^2] / E[rays]) / sqrt(V / C)"; break;
     case Roulette::Rule::biased_cut:
         return fmt::format(
             "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not "

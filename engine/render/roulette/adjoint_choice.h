@@ -1,0 +1,40 @@
+// Which samples of an image are rendered with the learned adjoint.
+#pragma once
+
+#include "render/compile/feature_report.h"
+#include "render/compile/scene_tables.h"
+#include "render/roulette/adjoint_pilot.h"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace blush {
+
+// The first sample of each pixel and all samples of coarse images are rendered without, so that no edit waits for a pilot
+// (adjoint_pilot.h). Every sample is unbiased, and a sample is the same in any range in which it is rendered. Rules that read the
+// throughput alone need no pilot.
+class AdjointChoice {
+public:
+    AdjointChoice() = default;
+    // For a new image.
+    explicit AdjointChoice(const RenderSettings& settings);
+
+    // True if the pilot must run before any sample but the first.
+    bool needs_pilot() const { return !useless_ && !learned_; }
+    void decide(AdjointPilot learned) { learned_ = std::move(learned); }
+
+    // True if samples after the first are rendered with it.
+    bool pays() const { return learned_ && !learned_->field.empty(); }
+    // The scene's tables for a sample of this index at full resolution. Requires the pilot except for index 0. Valid as long as both.
+    SceneTables tables(const SceneTables& scene, int64_t sample) const;
+
+    FeatureUse report() const;
+
+private:
+    const char* useless_ = "nothing is rendered"; // null: the pilot must run
+    int width_ = 0, height_ = 0;
+    std::optional<AdjointPilot> learned_;
+};
+
+} // namespace blush
