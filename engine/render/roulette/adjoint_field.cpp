@@ -11,6 +11,7 @@ namespace {
 constexpr int block = 4;           // cells along a block
 constexpr double prior_trials = 4; // weight of the coarser estimate
 constexpr double darkest = 0.02;   // a pixel counts as no darker than this share of the image's mean
+constexpr double extreme = 1e30;   // of table entries, and its inverse: so that no product is NaN
 constexpr double left_out = 0.01;  // share of the pixels, those of the largest variance: fireflies say nothing about the others
 
 struct Moments {
@@ -58,6 +59,8 @@ struct Neighbourhood {
     }
 };
 
+float bounded(double x) { return float(std::clamp(x, 1 / extreme, extreme)); }
+
 double variance_of(std::span<const float> samples) {
     double sum = 0, square = 0;
     for (const float s : samples) {
@@ -90,7 +93,7 @@ void AdjointField::measure_image(const AdjointImage& image) {
     std::vector<double> variances;
     for (size_t k = 0; k < pixels.size(); ++k) {
         const double level = std::max(pixels[k], darkest * mean);
-        importances_.push_back(float(1 / level));
+        importances_.push_back(bounded(1 / level));
         const auto n = size_t(image.samples);
         const double variance = variance_of(std::span(image.luminance).subspan(k * n, n)) / (level * level);
         if (std::isfinite(variance)) variances.push_back(variance);
@@ -129,7 +132,7 @@ void AdjointField::learn_values(Roulette::Rule rule, std::span<const Continuatio
         const size_t cell = row / receiver_sides;
         const Moments m = of_row[row].with(of_cell[cell].with(of_block[size_t(blocks.of(int32_t(cell)))].with(scene)));
         const double value = rule == Roulette::Rule::adjoint ? m.mean : std::sqrt(m.square / std::max(m.rays, 1e-9)) * efficiency;
-        values_.push_back(float(std::min(value, 1e30)));
+        values_.push_back(bounded(value));
     }
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 // Any; they only have to differ from each other and from those of images and of other pilots.
 constexpr uint32_t learning_seed = 0xad10017e, comparison_seed = 0xad10017f;
-constexpr int pixels = 1 << 14;
-constexpr int first_samples = 1, learning_samples = 4; // of a pixel: for the share of roulette, to learn
+constexpr int max_pixels = 1 << 14, min_pixels = 1 << 10, film_pixels_per_pixel = 8; // of the image that is learned from
+constexpr int first_samples = 1, learning_samples = 4;                               // of a pixel: for the share of roulette, to learn
 // Long enough for what closed rooms reflect, short enough that a room of albedo 1 does not hold the pilot up.
 constexpr int longest_paths = 32;
-constexpr double least_roulette_share = 0.1;
+constexpr double least_roulette_share = 0.25; // below, no learned rule was worth its pilot on any measured scene
 // Reading the tables takes 1 to 3 % of the rendering time, and a pilot is no more exact than that.
 constexpr double largest_cost = 0.9;
 constexpr std::array learned_rules{Roulette::Rule::adjoint, Roulette::Rule::efficiency};
@@ -62,6 +62,8 @@ Findings find_in_tile(const KernelContext& context, const Kernel& kernel, const 
 std::optional<Findings> find_light(const KernelContext& full, int samples, const Kernel& kernel, const Workers& workers,
                                    std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     KernelContext context = pilot_context(full, learning_seed);
+    const double film_pixels = double(full.settings.width) * double(full.settings.height);
+    const int pixels = int(std::clamp(film_pixels / film_pixels_per_pixel, double(min_pixels), double(max_pixels)));
     const PilotImage image = pilot_image(context.settings, pixels, samples);
     context.settings.width = float(image.width);
     context.settings.height = float(image.height);

@@ -107,6 +107,23 @@ TEST(AdjointField, IgnoresWhatIsNotFinite) {
         for (int x = 0; x < side; ++x) EXPECT_TRUE(std::isfinite(pixel_importance<float>(learned.tables(side, side), float(x), float(y))));
 }
 
+TEST(AdjointField, StaysFiniteForExtremeLight) {
+    for (const float unit : {1e-37f, 1e-20f, 1e20f, 1e36f}) {
+        std::vector<ContinuationTrial> trials = Rooms().trials();
+        for (ContinuationTrial& t : trials) t.radiance *= unit;
+        AdjointImage image = checkered(8);
+        for (float& v : image.luminance) v *= unit;
+        for (const Roulette::Rule rule : {Roulette::Rule::adjoint, Roulette::Rule::efficiency}) {
+            const AdjointTables tables = AdjointField(rule, trials, image).tables(side, side);
+            if (tables.empty()) continue; // nothing is learned, which is sound, too
+            for (const float throughput : {0.f, 1e-30f, 1.f, 1e30f}) {
+                const float q = throughput * pixel_importance<float>(tables, 3.f, 5.f) * adjoint_value<float>(tables, left, up);
+                EXPECT_FALSE(std::isnan(q)) << unit << " " << throughput;
+            }
+        }
+    }
+}
+
 // Survival probabilities have no unit.
 TEST(AdjointField, DoesNotDependOnTheUnitsOfLightAndLength) {
     const AdjointField field(Roulette::Rule::efficiency, Rooms().trials(), checkered(8));
