@@ -7,6 +7,8 @@
 #include "render/kernels/stage_timer.h"
 #include "shading/path_guiding.h"
 
+#include <algorithm>
+
 namespace blush::inline BLUSH_ISA {
 
 // True if not black; NaN counts as light, so that it reaches the film and is reported.
@@ -175,7 +177,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void roulette(const
                                                                            const Path<F>& path, const ShadingPoint<F>& p,
                                                                            const IndirectSample<F>& s, int bounce, const F& u, Vec<F>& beta,
                                                                            Step<F>& out) {
-    if (bounce + 1 < settings.roulette.start || settings.roulette.rule == Roulette::Rule::off) return;
+    if (bounce + 1 < std::max(settings.roulette.start, scene.roulette_start) || settings.roulette.rule == Roulette::Rule::off) return;
     // Undo the caustic guiding pdf: oversampled paths towards casters must not be ended for their low weight.
     Vec<F> rr_beta = beta * (1.f / s.pdf_ratio);
     if constexpr (S.has(Feature::transmission)) {

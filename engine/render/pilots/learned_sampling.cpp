@@ -63,8 +63,11 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
         return measure_manifolds(with, *traced, scene.guides.casters, chains, light_paths_.pays() ? chains : own, others...);
     };
     const auto learn_roulette = [&](const KernelContext& with, auto&&... others) -> std::optional<AdjointPilot> {
-        if (excludes_reuse() && with.settings.roulette.rule == Roulette::Rule::automatic)
-            return AdjointPilot{.why_not = "rare light of caustics: a pilot is too short to tell what roulette does to it"};
+        if (with.settings.roulette.rule == Roulette::Rule::automatic) {
+            if (manifolds_.pays()) return roulette_with_manifolds();
+            if (light_paths_.pays())
+                return AdjointPilot{.why_not = "light paths: a pilot is too short to tell what roulette does to caustics"};
+        }
         return learn_adjoint(with, reuse_group_size(1), others...);
     };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&

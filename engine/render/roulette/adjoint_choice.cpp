@@ -20,7 +20,10 @@ AdjointChoice::AdjointChoice(const RenderSettings& settings)
 
 SceneTables AdjointChoice::tables(const SceneTables& scene, int64_t sample) const {
     SceneTables tables = scene;
-    if (sample > 0 && pays()) tables.adjoint = learned_->field.tables(width_, height_);
+    if (sample > 0 && pays()) {
+        tables.adjoint = learned_->field.tables(width_, height_);
+        tables.roulette_start = learned_->start;
+    }
     return tables;
 }
 
@@ -40,7 +43,7 @@ FeatureUse AdjointChoice::report() const {
     else
         use.why = fmt::format("pilot: the variance of a sample is {:.3g} times the square of its pixel, for {:.3g} rays",
                               learned_->field.relative_variance(), learned_->field.rays_per_sample());
-    if (use.used) use.bytes = learned_->field.memory_bytes();
+    if (learned_ && !learned_->field.empty()) use.bytes = learned_->field.memory_bytes();
     if (learned_) use.pilot = learned_->figures;
     return use;
 }

@@ -25,7 +25,7 @@ public:
     void decide(AdjointPilot learned) { learned_ = std::move(learned); }
 
     // True if samples after the first are rendered with it.
-    bool pays() const { return learned_ && !learned_->field.empty(); }
+    bool pays() const { return learned_ && (!learned_->field.empty() || learned_->start > 0); }
     // The scene's tables for a sample of this index at full resolution. Requires the pilot except for index 0. Valid as long as both.
     SceneTables tables(const SceneTables& scene, int64_t sample) const;
 

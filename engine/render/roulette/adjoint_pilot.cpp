@@ -128,6 +128,13 @@ std::optional<FiguresOfRules> compare_rules(const KernelContext& full, int group
 
 } // namespace
 
+AdjointPilot roulette_with_manifolds() {
+    AdjointPilot pilot;
+    pilot.start = 6;
+    pilot.why_not = fmt::format("manifold sampling: no path ends before bounce {}, which saves more noise than time", pilot.start);
+    return pilot;
+}
+
 std::optional<AdjointPilot> learn_adjoint(const KernelContext& context, int group_size, const Kernel& kernel, const Workers& workers,
                                           std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     AdjointPilot pilot;

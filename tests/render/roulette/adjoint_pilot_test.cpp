@@ -2,6 +2,7 @@
 // rendered.
 #include "render/roulette/adjoint_pilot.h"
 
+#include "render/diagnostics/path_recorder.h"
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
@@ -79,6 +80,24 @@ TEST(AdjointPilot, IsLeftOutWhereItDoesNotPay) {
     place(dark, cube(true), lambert(0.8f));
     dark.view = looking({0, 0, 0}, {0, 0, -1}, 1);
     EXPECT_FALSE(decided_line(dark, settings_of(Rule::adjoint), feature).used);
+}
+
+// A pilot would be too short to judge caustics.
+TEST(AdjointPilot, StartsRouletteLaterWhereManifoldsAreSampled) {
+    const FeatureUse pool = decided_line(shipped_scene("pool"), settings_of(Rule::automatic), feature);
+    EXPECT_TRUE(pool.used);
+    EXPECT_NE(pool.why.find("no path ends before bounce 6"), std::string::npos) << pool.why;
+    PathRecorder recorder;
+    recorder.update(shipped_scene("pool"), settings_of(Rule::automatic));
+    ASSERT_TRUE(recorder.decide());
+    int applied = 0;
+    for (int y = 0; y < 36; y += 4)
+        for (int x = 0; x < 64; x += 4)
+            for (const PathVertex& v : recorder.record(x, y, 2).vertices) {
+                EXPECT_FALSE(v.roulette && v.bounce < 5);
+                applied += v.roulette;
+            }
+    EXPECT_GT(applied, 0);
 }
 
 // Without a pilot that pays, automatic is sqrt to the bit.
