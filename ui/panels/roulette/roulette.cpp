@@ -26,7 +26,7 @@ std::string formula(const Roulette& r) {
     case Roulette::Rule::luminance: q = "Y(beta)"; break;
     case Roulette::Rule::sqrt: q = "sqrt(max(beta))"; break;
     case Roulette::Rule::constant: q = fmt::format("{:.3g}", r.probability); break;
-    case Roulette::Rule::automatic: q = "sqrt(max(beta)) or learned"; break;
+    case Roulette::Rule::automatic: q = "sqrt(max(beta))"; break;
     case Roulette::Rule::adjoint: q = "Y(beta) E[L] / I"; break;
     case Roulette::Rule::efficiency: q = "Y(beta) / I sqrt(E[L^2] / E[rays]) / sqrt(V / C)"; break;
     case Roulette::Rule::biased_cut:
@@ -41,8 +41,12 @@ std::string formula(const Roulette& r) {
         q = fmt::format("min(1, max({:.3g}, {}))", r.floor, q);
     else if (r.rule != Roulette::Rule::constant)
         q = fmt::format("min(1, {})", q);
-    return fmt::format("q = {} from bounce {} on; survivors: beta / q. At smooth mirrors and glass q = 1 before bounce {}.", q, r.start,
-                       std::max(r.start, first_rr_bounce_at_delta));
+    const char* const otherwise =
+        r.rule == Roulette::Rule::automatic
+            ? " A learned rule or a later start replaces this where that pays: see Specialisation in the Render tab."
+            : "";
+    return fmt::format("q = {} from bounce {} on; survivors: beta / q. At smooth mirrors and glass q = 1 before bounce {}.{}", q, r.start,
+                       std::max(r.start, first_rr_bounce_at_delta), otherwise);
 }
 
 void figure_row(const char* name, const std::string& rule, const std::string& none, const char* tip, UiState& ui) {
