@@ -21,8 +21,8 @@ struct AdjointImage {
 // The tables of the rules `adjoint` and `efficiency`, from the trials of a pilot. With the throughput beta, the luminance I of the pixel,
 // and in a cell the mean E[L] and the second moment E[L^2] of the light that paths find behind it, for E[R] rays:
 //
-//   adjoint:    q = beta E[L] / I                                        (Vorba and Krivanek 2016, eq. 8)
-//   efficiency: q = beta / I sqrt(E[L^2] / E[R]) / sqrt(V / C)           (Rath et al. 2022, eq. 13)
+//   adjoint:    q = beta E[L] / I                               (Vorba and Krivanek 2016)
+//   efficiency: q = beta / I sqrt(E[L^2] / E[R]) / sqrt(V / C)  (Rath et al. 2022; without splitting)
 //
 // where V is the relative variance of one sample of a pixel and C its rays, means over the image. Values hold all but beta / I.
 //

@@ -19,7 +19,7 @@ constexpr int first_samples = 1, learning_samples = 4;                          
 // Long enough for what closed rooms reflect, short enough that a room of albedo 1 does not hold the pilot up.
 constexpr int longest_paths = 32;
 constexpr double least_roulette_share = 0.25; // below, no learned rule was worth its pilot on any measured scene
-// Reading the tables takes 1 to 3 % of the rendering time, and a pilot is no more exact than that.
+// Reading the tables takes time that is not counted as work, and a pilot is no more exact than that.
 constexpr double largest_cost = 0.9;
 constexpr std::array learned_rules{Roulette::Rule::adjoint, Roulette::Rule::efficiency};
 
