@@ -221,7 +221,6 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         // Ends where the pilot of adaptive sampling is measured, and where what the pilots decided begins.
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
         if (next == 0 && s.first_differs()) step = 1;
-        if (next < AdjointChoice::first_learned_sample) step = std::min(step, AdjointChoice::first_learned_sample - next);
         if (s.replacement && s.replacement->prepares_samples()) step = 1;
         if (!s.prepare_replacement_for(next, wanted)) return !(s.film_is_uneven = true);
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));

@@ -20,8 +20,10 @@ AdjointChoice::AdjointChoice(const RenderSettings& settings)
 
 SceneTables AdjointChoice::tables(const SceneTables& scene, int64_t sample) const {
     SceneTables tables = scene;
-    if (sample > 0 && pays()) tables.roulette_start = learned_->start;
-    if (sample >= first_learned_sample && pays()) tables.adjoint = learned_->field.tables(width_, height_);
+    if (sample > 0 && pays()) {
+        tables.adjoint = learned_->field.tables(width_, height_);
+        tables.roulette_start = learned_->start;
+    }
     return tables;
 }
 

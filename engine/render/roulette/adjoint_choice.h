@@ -11,7 +11,7 @@
 
 namespace blush {
 
-// The first samples of each pixel and all samples of coarse images are rendered without, so that no edit waits for a pilot
+// The first sample of each pixel and all samples of coarse images are rendered without, so that no edit waits for a pilot
 // (adjoint_pilot.h). Every sample is unbiased, and a sample is the same in any range in which it is rendered. Rules that read the
 // throughput alone need no pilot.
 class AdjointChoice {
@@ -24,11 +24,7 @@ public:
     bool needs_pilot() const { return !useless_ && !learned_; }
     void decide(AdjointPilot learned) { learned_ = std::move(learned); }
 
-    // Samples before this one follow `sqrt`. Those of a learned rule may take twice as long: an image that is edited every second has more
-    // use for a second sample than for a better one (`blush_bench quality`).
-    static constexpr int64_t first_learned_sample = 4;
-
-    // True if some samples are rendered with it, or with a later start, which begins with the second sample.
+    // True if samples after the first are rendered with it.
     bool pays() const { return learned_ && (!learned_->field.empty() || learned_->start > 0); }
     // The scene's tables for a sample of this index at full resolution. Requires the pilot except for index 0. Valid as long as both.
     SceneTables tables(const SceneTables& scene, int64_t sample) const;
