@@ -104,11 +104,10 @@ struct TileScratch {
     std::unique_ptr<EscapeTrials> escapes;             // null: not recorded
     std::unique_ptr<GuidingTrials> guiding;            // null: not recorded; not with path reuse
     std::unique_ptr<ContinuationTrials> continuations; // null: not recorded; not with path reuse
-    std::unique_ptr<Column<float>>
-        importance;                        // of the slot's pixel (shading/learned_adjoint.h); allocated by the first kernel that needs it
-    std::unique_ptr<PhotonTrials> photons; // null: paths begin at the camera; else one for each path of the tile
-    std::unique_ptr<LightPathColumns> light_paths;                                  // null: no light paths
-    std::unique_ptr<ManifoldColumns> manifolds;                                     // allocated by the first kernel with manifold sampling
+    std::unique_ptr<Column<float>> importance;         // of the slot's pixel (shading/learned_adjoint.h); null until a kernel needs it
+    std::unique_ptr<PhotonTrials> photons;             // null: paths begin at the camera; else one for each path of the tile
+    std::unique_ptr<LightPathColumns> light_paths;     // null: no light paths
+    std::unique_ptr<ManifoldColumns> manifolds;        // allocated by the first kernel with manifold sampling
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

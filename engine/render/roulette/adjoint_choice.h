@@ -1,4 +1,4 @@
-// Which samples of an image are rendered with the learned adjoint.
+// Which samples of an image are rendered with the learned adjoint, or with a later start of Russian roulette.
 #pragma once
 
 #include "render/compile/feature_report.h"
@@ -24,7 +24,7 @@ public:
     bool needs_pilot() const { return !useless_ && !learned_; }
     void decide(AdjointPilot learned) { learned_ = std::move(learned); }
 
-    // True if samples after the first are rendered with it.
+    // True if samples after the first are rendered in another way than by `sqrt` from the start of the settings.
     bool pays() const { return learned_ && (!learned_->field.empty() || learned_->start > 0); }
     // The scene's tables for a sample of this index at full resolution. Requires the pilot except for index 0. Valid as long as both.
     SceneTables tables(const SceneTables& scene, int64_t sample) const;
