@@ -86,9 +86,9 @@ public:
     // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});
     void clear();
-    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path guiding
-    // (learned_sampling.h), path reuse and smooth edges (reuse_choice.h, edge_choice.h). Otherwise render() does so before the second
-    // sample at full resolution. False if stopped.
+    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path guiding,
+    // light paths, manifold sampling, path reuse and Russian roulette (learned_sampling.h), and smooth edges (edge_choice.h).
+    // Otherwise render() does so before the second sample at full resolution. False if stopped.
     bool decide(const std::function<bool()>& wanted = {});
 
     // First hits in the last applied scene at full size, which joint upsampling of coarse images needs (joint_upsampling.h). Kept while

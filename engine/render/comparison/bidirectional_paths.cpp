@@ -140,7 +140,7 @@ bool BidirectionalPaths::extend_camera_path(RandomPairs& random, Vertex& v, int 
     Vec3 beta = p.beta * sampled.bsdf.weight;
     Step<float> step = ended_step<float>(beta);
     step.continues = sampled.bsdf.valid && (sampled.bsdf.wi.z > 0) == sampled.outward && has_light<float>(beta);
-    roulette<s, float>(*context_.scene, context_.settings, arrived, p, sampled, bounce, choice.y(), beta, step);
+    roulette<s, float>(*context_.scene, context_.settings, arrived, p, setup.receiver, sampled, bounce, choice.y(), beta, step);
     if (!step.continues) return false;
     if (!std::isfinite(beta.x + beta.y + beta.z)) return add(beta, bounce + 1, -1), false; // the film reports it
     next_path<s, float>(arrived, p, setup, sampled, beta, cone, next.path);

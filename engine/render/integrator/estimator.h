@@ -102,7 +102,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     const Mask<F> same_side = (indirect.bsdf.wi.z > F(0.f)) == indirect.outward;
     out.continues = scatters && indirect.bsdf.valid && same_side && has_light(next_beta);
     out.weights.guided = indirect.guided;
-    roulette<S, F>(scene, settings, path, p, indirect, bounce, choice.y(), next_beta, out);
+    roulette<S, F>(scene, settings, path, p, setup.receiver, indirect, bounce, choice.y(), next_beta, out);
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;
     out.crosses = indirect.outward != (dot(side.wo, p.shading.ng) > F(0.f));

@@ -40,8 +40,8 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
 
 // The same by the learned adjoint.
 template <class F>
-F adjoint_survival(const Roulette& r, const AdjointTables& adjoint, const Path<F>& path, const ShadingPoint<F>& p, const Vec<F>& beta) {
-    const F learned = luminance(beta) * path.importance * adjoint_value<F>(adjoint, p.surface.position, p.shading.ns);
+F adjoint_survival(const Roulette& r, const AdjointTables& adjoint, const Path<F>& path, const Receiver<F>& at, const Vec<F>& beta) {
+    const F learned = luminance(beta) * path.importance * adjoint_value<F>(adjoint, at.position, at.normal);
     return limited_survival<F>(r, max(F(least_adjoint_share * max_component(beta)), learned));
 }
 
@@ -175,8 +175,8 @@ template <Features S, class F>
 // number in [0, 1).
 template <Features S, class F> [[gnu::always_inline]] inline void roulette(const SceneTables& scene, const EstimatorSettings& settings,
                                                                            const Path<F>& path, const ShadingPoint<F>& p,
-                                                                           const IndirectSample<F>& s, int bounce, const F& u, Vec<F>& beta,
-                                                                           Step<F>& out) {
+                                                                           const Receiver<F>& receiver, const IndirectSample<F>& s,
+                                                                           int bounce, const F& u, Vec<F>& beta, Step<F>& out) {
     if (bounce + 1 < std::max(settings.roulette.start, scene.roulette_start) || settings.roulette.rule == Roulette::Rule::off) return;
     // Undo the caustic guiding pdf: oversampled paths towards casters must not be ended for their low weight.
     Vec<F> rr_beta = beta * (1.f / s.pdf_ratio);
@@ -189,7 +189,7 @@ template <Features S, class F> [[gnu::always_inline]] inline void roulette(const
     // scenes with delta lobes only.
     const Mask<F> rr_applied = !s.bsdf.delta || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
     const F survival = scene.adjoint.empty() ? survival_probability(settings.roulette, rr_beta)
-                                             : adjoint_survival<F>(settings.roulette, scene.adjoint, path, p, rr_beta);
+                                             : adjoint_survival<F>(settings.roulette, scene.adjoint, path, receiver, rr_beta);
     const F q = select(rr_applied, survival, F(1.f));
     out.weights.survival = q;
     out.weights.rr_applied = out.continues && rr_applied;
