@@ -28,11 +28,15 @@ std::vector<ConvergenceRecord> shown_records(const ConvergenceRuns& runs) {
 }
 
 // The features that pilots have switched on for this image, "Pilots: light paths, path reuse"; empty: none, or they have not run.
-std::string pilots_label(const Frame& frame) {
+// Names what pilots chose and is not in `marked`, and adds it there; empty: nothing.
+std::string pilots_label(const Frame& frame, std::vector<std::string>& marked) {
     std::string names;
     if (frame.feature_report)
         for (const FeatureUse& use : *frame.feature_report)
-            if (use.pilot && use.used) names += (names.empty() ? "Pilots: " : ", ") + use.name;
+            if (use.pilot && use.used && std::find(marked.begin(), marked.end(), use.name) == marked.end()) {
+                names += (names.empty() ? "Pilots: " : ", ") + use.name;
+                marked.push_back(use.name);
+            }
     return names;
 }
 
@@ -62,7 +66,7 @@ void EditorConvergence::begin(ConvergenceView& view, const std::string& name, co
     first_revision_ = next->revision;
     subject_ = {next->scene, next->settings};
     remixed_by_.clear();
-    pilots_marked_ = false;
+    marked_pilots_.clear();
     recording_seconds_ = 0;
     view.cost = {};
     measuring_.begin(view.runs.begin(name));
@@ -101,11 +105,9 @@ void EditorConvergence::record(ConvergenceView& view, const FramePtr& frame) {
         record.set(point);
     else if (known)
         record.add(point);
-    if (!pilots_marked_ && frame->samples > 1) // they run before the second sample
-        if (std::string label = pilots_label(*frame); !label.empty()) {
+    if (frame->samples > 1) // most pilots run before the second sample, that of roulette before the fifth
+        if (std::string label = pilots_label(*frame, marked_pilots_); !label.empty())
             record.mark({frame->seconds, frame->samples, std::move(label)});
-            pilots_marked_ = true;
-        }
     if (known && remixed) record.mark({point.seconds, point.spp, std::exchange(remixed_by_, {}), true});
     if (view.reference && reference_provider_.reference() && (frame->complete || record.is_due(Kind::measured, frame->samples)))
         measuring_.add_raw(frame);

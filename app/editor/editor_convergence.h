@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blush {
 
@@ -50,8 +51,8 @@ private:
     SubmissionPtr submitted_; // the last one; null: none yet
     size_t steps_to_redo_ = 0;
 
-    bool pilots_marked_ = false; // in the live run
-    std::string remixed_by_;     // the last edit of the mix, until its image is seen; empty: none
+    std::vector<std::string> marked_pilots_; // in the live run: features that they chose
+    std::string remixed_by_;                 // the last edit of the mix, until its image is seen; empty: none
     FramePtr last_frame_;
     DenoisedPtr last_denoised_;
     double recording_seconds_ = 0;

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <experimental/propagate_const>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,10 +87,10 @@ public:
     // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});
     void clear();
-    // Runs the pilots that the scene and settings need and that have not run: of learned visibility, learned portals, path guiding,
-    // light paths, manifold sampling, path reuse and Russian roulette (learned_sampling.h), and smooth edges (edge_choice.h).
-    // Otherwise render() does so before the second sample at full resolution. False if stopped.
-    bool decide(const std::function<bool()>& wanted = {});
+    // Runs the pilots that samples of an index below `samples` need and that have not run: of learned visibility, learned portals, path
+    // guiding, light paths, manifold sampling, path reuse and Russian roulette (learned_sampling.h), and smooth edges (edge_choice.h).
+    // Otherwise render() does so before the first sample at full resolution that needs them. False if stopped.
+    bool decide(const std::function<bool()>& wanted = {}, int64_t samples = std::numeric_limits<int64_t>::max());
 
     // First hits in the last applied scene at full size, which joint upsampling of coarse images needs (joint_upsampling.h). Kept while
     // edits change only light; null: none. Traced through pixel centres.

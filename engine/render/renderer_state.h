@@ -189,7 +189,8 @@ struct Renderer::State {
     void refine_first_sample(const EdgePixels& pixels);
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
-    bool decide(const Wanted& wanted);
+    // Runs the pilots that samples of an index below `samples` need.
+    bool decide(int64_t samples, const Wanted& wanted);
     // Settings of the kernels: an integrator for comparison takes direct light or emission alone from them.
     RenderSettings kernel_settings_for(const RenderSettings& asked) const;
     // With all bounces.

@@ -175,11 +175,11 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
 }
 
 // Each pilot measures the samples as those before it have decided.
-bool Renderer::State::decide(const Wanted& wanted) {
-    if (!learned.needs_pilot() && !edges.needs_pilot() && !needs_highlights()) return true;
+bool Renderer::State::decide(int64_t samples, const Wanted& wanted) {
+    if (!learned.needs_pilot(samples) && !edges.needs_pilot() && !needs_highlights()) return true;
     SceneTables tables = scene.tables();
     const KernelContext context = context_for(tables, settings.width, settings.height);
-    if (!learned.decide(context, *kernel, workers, replays, wanted)) return false;
+    if (!learned.decide(samples, context, *kernel, workers, replays, wanted)) return false;
     tables = learned.tables(scene.tables(), 1);
     if (edges.needs_pilot()) {
         auto found = find_edge_pixels(context, *kernel, workers, replays, wanted);
@@ -199,7 +199,7 @@ bool Renderer::State::decide(const Wanted& wanted) {
 // Only where lamps with a size may be seen in smooth surfaces.
 bool Renderer::State::needs_highlights() const { return !highlights && scene.has_smooth_surfaces() && scene.tables().lights.count > 0; }
 
-bool Renderer::decide(const std::function<bool()>& wanted) { return state_->decide(wanted); }
+bool Renderer::decide(const std::function<bool()>& wanted, int64_t samples) { return state_->decide(samples, wanted); }
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
@@ -207,7 +207,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     if (!s.prepare_replacement(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
     if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
-        if (!s.decide(wanted)) return false;
+        if (!s.decide(2, wanted)) return false;
         if (s.samples == 0) s.begin_splats();
         if (s.learned.renews_first()) {
             if (begin == 0) s.first_as_others = true;
@@ -221,7 +221,9 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         // Ends where the pilot of adaptive sampling is measured, and where what the pilots decided begins.
         if (s.settings.adaptive) step = std::min(step, SampleAllocation::next_measurement(next) - next);
         if (next == 0 && s.first_differs()) step = 1;
+        if (s.divider == 1 && next < AdjointChoice::first_sample) step = std::min(step, AdjointChoice::first_sample - next);
         if (s.replacement && s.replacement->prepares_samples()) step = 1;
+        if (s.divider == 1 && s.learned.needs_pilot(next + step) && !s.decide(next + step, wanted)) return false;
         if (!s.prepare_replacement_for(next, wanted)) return !(s.film_is_uneven = true);
         if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
         const bool planned = s.settings.adaptive && next >= SampleAllocation::pilot_samples && s.sample_allocation.decided();

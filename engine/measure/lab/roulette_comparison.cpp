@@ -4,6 +4,7 @@
 #include "measure/lab/lab_settings.h"
 #include "measure/statistics/bounce_energy.h"
 #include "measure/statistics/significance.h"
+#include "render/roulette/adjoint_choice.h"
 
 #include <algorithm>
 #include <array>
@@ -171,8 +172,8 @@ bool RouletteComparison::round(const std::function<bool()>& wanted) {
     State& s = *state_;
     Side* const turns[2] = {&s.rule, &s.none};
     const size_t first = size_t(s.report.rounds % 2);
-    // The first sample of an image follows no learned rule.
-    const int64_t sample = s.rule.settings.roulette.learns() ? 1 : 0;
+    // The first samples of an image follow no learned rule.
+    const int64_t sample = s.rule.settings.roulette.learns() ? AdjointChoice::first_sample : 0;
     for (const size_t turn : {first, 1 - first})
         if (!turns[turn]->render(s.scene, s.report.rounds, sample, s.report.spp, wanted)) return false;
     ++s.report.rounds;

@@ -130,7 +130,7 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
     const Kernel& kernel = choose_kernel(compiled.features());
     LearnedSampling learned(settings, compiled, FilmSize{settings.width, settings.height});
     const bool decides = sample > 0 || settings.spp != 1; // without a limit, too
-    if (decides) learned.decide(context, kernel, workers, scratches, {});
+    if (decides) learned.decide(std::max<int64_t>(sample + 1, 2), context, kernel, workers, scratches, {});
     const SceneTables tables = learned.tables(compiled.tables(), decides && learned.renews_first() ? std::max<int64_t>(sample, 1) : sample);
     context.scene = &tables;
     Logger log{expanded, compiled, context.settings, {}};

@@ -10,6 +10,7 @@
 #include "scene/reuse_setting.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace blush {
@@ -79,7 +80,8 @@ bool PathRecorder::decide(const std::function<bool()>& wanted) {
     State& s = *state_;
     if (s.decided) return true;
     const KernelContext context = s.context(s.scene.tables());
-    s.decided = s.learned.decide(context, choose_kernel(s.scene.features()), s.workers, s.scratch, wanted);
+    s.decided =
+        s.learned.decide(std::numeric_limits<int64_t>::max(), context, choose_kernel(s.scene.features()), s.workers, s.scratch, wanted);
     return s.decided;
 }
 

@@ -23,14 +23,14 @@ void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effe
     if (!guiding_.needs_pilot()) return;
     // Where the first sample was not rendered again, it will probably not be after the edit: it must do without then. Where manifold
     // sampling finds the caustics, the field finds so little of them in one sample that it is noise.
-    if (const bool used = !before.needs_pilot() && before.renews_first() && !before.manifolds_.pays(); !before.guiding_.needs_pilot()) {
+    if (const bool used = !before.needs_pilot(2) && before.renews_first() && !before.manifolds_.pays(); !before.guiding_.needs_pilot()) {
         if (auto field = before.guiding_.take_field(); field && used) kept_.emplace(*std::move(field), before.origin_);
     } else
         kept_ = std::move(before.kept_);
     if (kept_ && !kept_->follow(effect, origin)) kept_.reset();
 }
 
-bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const Workers& workers,
+bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kernel& kernel, const Workers& workers,
                              std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     const SceneTables scene = *context.scene;
     const auto run = [&](auto& choice, const auto& pilot) {
@@ -72,7 +72,7 @@ bool LearnedSampling::decide(KernelContext context, const Kernel& kernel, const 
     };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&
            run(light_paths_, measure_paths) && run(manifolds_, measure_chains) && (excludes_reuse() || run(reuse_, measure_path_reuse)) &&
-           run(adjoint_, learn_roulette);
+           (samples <= first_roulette_sample() || run(adjoint_, learn_roulette));
 }
 
 } // namespace blush

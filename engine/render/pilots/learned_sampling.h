@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <functional>
+
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,15 +38,17 @@ public:
     // The field that an edit left over; null: none, or the pilots have run.
     const KeptField* kept_field() const { return kept_ && guiding_.needs_pilot() ? &*kept_ : nullptr; }
 
-    bool needs_pilot() const {
-        return visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() || light_paths_.needs_pilot() ||
-               manifolds_.needs_pilot() || (reuse_.needs_pilot() && !excludes_reuse()) || adjoint_.needs_pilot();
+    // True if a pilot must run before samples of an index below this one.
+    bool needs_pilot(int64_t samples) const {
+        return (samples > 1 && (visibility_.needs_pilot() || portals_.needs_pilot() || guiding_.needs_pilot() ||
+                                light_paths_.needs_pilot() || manifolds_.needs_pilot() || (reuse_.needs_pilot() && !excludes_reuse()))) ||
+               (samples > first_roulette_sample() && adjoint_.needs_pilot());
     }
-    // Runs the pilots that are needed; each measures the samples as those before it have decided. `context`: as for the film at full
-    // resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. False if
-    // `wanted` returned false.
-    bool decide(KernelContext context, const Kernel& kernel, const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                const std::function<bool()>& wanted);
+    // Runs the pilots that samples of an index below `samples` need; each measures the samples as those before it have decided. `context`:
+    // as for the film at full resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated
+    // if needed. False if `wanted` returned false.
+    bool decide(int64_t samples, KernelContext context, const Kernel& kernel, const Workers& workers,
+                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
     // True if other samples than the first are rendered in another way.
     bool pays() const {
@@ -56,7 +59,7 @@ public:
     bool renews_first() const {
         return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much() || light_paths_.pays() || manifolds_.gains_much();
     }
-    // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as this object and
+    // The tables for a sample of this index at full resolution. Requires !needs_pilot(sample + 1). Valid as long as this object and
     // the scene.
     SceneTables tables(const SceneTables& scene, int64_t sample) const {
         const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
@@ -88,6 +91,9 @@ public:
     }
 
 private:
+    // The first sample that must know how roulette acts: where manifold sampling pays, it only starts later.
+    int64_t first_roulette_sample() const { return manifolds_.pays() ? 1 : AdjointChoice::first_sample; }
+
     VisibilityChoice visibility_;
     PortalChoice portals_;
     GuidingChoice guiding_;

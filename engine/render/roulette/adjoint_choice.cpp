@@ -20,10 +20,8 @@ AdjointChoice::AdjointChoice(const RenderSettings& settings)
 
 SceneTables AdjointChoice::tables(const SceneTables& scene, int64_t sample) const {
     SceneTables tables = scene;
-    if (sample > 0 && pays()) {
-        tables.adjoint = learned_->field.tables(width_, height_);
-        tables.roulette_start = learned_->start;
-    }
+    if (sample > 0 && pays()) tables.roulette_start = learned_->start;
+    if (sample >= first_sample && pays()) tables.adjoint = learned_->field.tables(width_, height_);
     return tables;
 }
 
@@ -32,7 +30,7 @@ FeatureUse AdjointChoice::report() const {
     if (useless_)
         use.why = useless_;
     else if (!learned_)
-        use.why = "a pilot learns it after the first sample";
+        use.why = "a pilot learns it after the fourth sample";
     else if (learned_->figures)
         use.why = fmt::format("pilot: variance x work of the {} rule is {:.2f} of that of the square root",
                               learned_->best == Roulette::Rule::adjoint ? "adjoint" : "efficiency", learned_->figures->cost());

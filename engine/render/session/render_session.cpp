@@ -317,7 +317,7 @@ void RenderSession::State::render_batch() {
                (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     };
     // Not within the time of the samples, from which that of the next image is predicted.
-    if (work.divider == 1 && work.first_sample > 0 && !renderer->decide(wanted)) return;
+    if (work.divider == 1 && work.first_sample > 0 && !renderer->decide(wanted, work.first_sample + work.count)) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
     if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {

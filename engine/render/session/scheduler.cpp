@@ -47,7 +47,7 @@ int Scheduler::first_divider() const {
     if (!interactive_) return 1;
     // Without measurements, assume two million full paths per second.
     const double pixels = double(settings_.width) * double(settings_.height);
-    const double full = timings_.sample_seconds > 0 ? timings_.sample_seconds : pixels / 2e6;
+    const double full = timings_.first_sample_seconds > 0 ? timings_.first_sample_seconds : pixels / 2e6;
     const int raw = divider_within(first_image_seconds, full);
     if (raw == 1 || denoising_seconds_per_pixel_ == 0) return raw;
     const int denoised = divider_within(first_denoised_seconds, full + pixels * denoising_seconds_per_pixel_);
@@ -58,8 +58,8 @@ int Scheduler::first_divider() const {
 bool Scheduler::coarse_image_is_worth_more() const {
     if (film_divider_ <= 1) return false;
     if (settings_.spp > 0 && settings_.first_sample + 2 * coarse_samples_ > settings_.spp) return false;
-    const double more = double(coarse_samples_) * timings_.sample_seconds / (double(film_divider_) * double(film_divider_));
-    return seconds_ + more <= coarse_share * timings_.sample_seconds;
+    const double more = double(coarse_samples_) * timings_.first_sample_seconds / (double(film_divider_) * double(film_divider_));
+    return seconds_ + more <= coarse_share * timings_.first_sample_seconds;
 }
 
 double Scheduler::publish_interval() const {
@@ -113,9 +113,15 @@ void Scheduler::record_render(const Work& work, double seconds) {
     seconds_ += seconds;
     const double pixels_share = 1.0 / (double(work.divider) * double(work.divider));
     const double per_sample = seconds / (double(work.count) * pixels_share);
+    const auto follow = [&](double& seconds_per_sample, double trust) {
+        seconds_per_sample = seconds_per_sample > 0 ? (1 - trust) * seconds_per_sample + trust * per_sample : per_sample;
+    };
     // Small films have idle lanes and cold caches, so they predict full-size timings less well.
-    const double trust = work.divider == 1 ? 0.5 : 0.25;
-    timings_.sample_seconds = timings_.sample_seconds > 0 ? (1 - trust) * timings_.sample_seconds + trust * per_sample : per_sample;
+    const bool whole = work.divider == 1;
+    follow(timings_.sample_seconds, whole ? 0.5 : 0.25);
+    // An image has one whole sample of these, which must do to follow a scene that became slower.
+    if (!whole || work.first_sample == settings_.first_sample) follow(timings_.first_sample_seconds, whole ? 0.75 : 0.25);
+
     if (work.always_finish) last_first_divider_ = work.divider;
     film_divider_ = work.divider;
     coarse_samples_ = work.first_sample + work.count - settings_.first_sample;

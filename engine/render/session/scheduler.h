@@ -23,8 +23,10 @@ struct Work {
 class Scheduler {
 public:
     struct Timings {
-        // Seconds per sample of every pixel at full resolution; 0: unknown.
+        // Seconds per sample of every pixel at full resolution, as of the last ones; 0: unknown.
         double sample_seconds = 0;
+        // The same of first samples and coarse images, which pilots have no part in; 0: unknown.
+        double first_sample_seconds = 0;
     };
 
     // Tracing time of the coarse image: half a frame of 60 Hz. Cancelling, resolving and drawing take the rest.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace blush::TEST_FILE {
@@ -375,6 +376,30 @@ TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {
     EXPECT_EQ(scheduler.seconds(), 0);
     EXPECT_EQ(scheduler.next().divider, divider);
     EXPECT_NEAR(scheduler.timings().sample_seconds, machine.sample_seconds, 1e-6);
+}
+
+// As with what pilots learn: light paths, or learned roulette.
+TEST(Scheduler, SlowerLaterSamplesDoNotDelayTheFirst) {
+    const Machine machine{0.3}, later{0.9};
+    const auto first_image = [](Scheduler& scheduler, const Machine& machine) {
+        std::vector<std::pair<int, int64_t>> works;
+        do {
+            const Work work = scheduler.next();
+            works.emplace_back(work.divider, work.count);
+            machine.do_work(scheduler, work);
+        } while (scheduler.samples() == 0);
+        return works;
+    };
+    Scheduler same = trained(machine, endless()), slower = same;
+    EXPECT_EQ(first_image(same, machine), first_image(slower, machine));
+    machine.run(same, 30);
+    later.run(slower, 30);
+    EXPECT_GT(slower.timings().sample_seconds, 2 * same.timings().sample_seconds);
+    same.restart(endless(), true);
+    slower.restart(endless(), true);
+    const auto works = first_image(same, machine);
+    EXPECT_GT(works.size(), 2u);
+    EXPECT_EQ(works, first_image(slower, machine));
 }
 
 } // namespace
