@@ -23,6 +23,8 @@ Snapshot snapshot_of(EditorSnapshots::Shown shown) {
     s.images = std::move(shown.images);
     // A denoised image at reduced resolution is not saved as a layer.
     if (s.images.denoised && s.images.denoised->divider != 1) s.images.denoised = nullptr;
+    // Nor are earlier views.
+    if (s.images.denoised && s.images.denoised->has_history()) s.images.denoised = without_history(*s.images.denoised);
     s.project = std::move(shown.project);
     s.settings = shown.settings;
     s.imported = std::move(shown.imported);

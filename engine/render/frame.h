@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct ClampReport {
 
 struct Frame {
     uint64_t revision = 0;     // of the submission that it belongs to
+    uint64_t look = 0;         // Submission::look
     int width = 0, height = 0; // of the pixels below
     int divider = 1;           // full resolution / this resolution
     int64_t samples = 0;       // per pixel, on average
@@ -65,6 +67,8 @@ struct Frame {
 
     // By which a coarse image is enlarged after denoising (joint_upsampling.h); null: not at all.
     FirstHitPlanesPtr first_hits;
+    // With sharp first hits, for the view history of denoised images; else empty.
+    std::optional<WorldCamera> camera;
 
     // Radiance by number of scatterings: 0 directly visible, 1 scattered once, ...; the last holds all further ones. They sum to
     // the beauty. Empty unless requested.

@@ -100,6 +100,8 @@ public:
     void keep_first_hits(FirstHitPlanesPtr planes);
     // False if the camera has an aperture, or the image is transparent: then a first hit does not say what a pixel shows.
     bool has_sharp_first_hits() const;
+    // Of the last applied scene.
+    WorldCamera world_camera() const;
 
     // The film so far, divided by its sample counts. The second overload reuses the memory of an old frame and does not estimate
     // the error, which costs as much as some hundredths of a sample.

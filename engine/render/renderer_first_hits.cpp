@@ -2,6 +2,7 @@
 #include "render/film/film_columns.h"
 #include "render/integrator/camera.h"
 #include "render/renderer_state.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,11 @@ bool Renderer::has_sharp_first_hits() const {
     return s.expanded && s.expanded->view.lens.aperture_radius == 0 && !s.transparent() && !s.catches();
 }
 
+WorldCamera Renderer::world_camera() const {
+    const CameraRecord& c = state_->scene.tables().camera;
+    return {state_->scene.origin() + to_double(c.position), c.right, c.up, c.forward, c.orthographic != 0};
+}
+
 FirstHitPlanesPtr Renderer::trace_first_hits() {
     State& s = *state_;
     const int width = s.settings.width, height = s.settings.height;
@@ -61,8 +67,8 @@ FirstHitPlanesPtr Renderer::trace_first_hits() {
         s.kernel->render(context, job, scratch);
         store(*scratch.first, job, width, *planes);
     });
-    s.first_hits =
-        std::make_shared<const FirstHitPlanes>(FirstHitPlanes{width, height, planes->albedo, planes->normal, planes->depth, planes});
+    s.first_hits = std::make_shared<const FirstHitPlanes>(
+        FirstHitPlanes{width, height, planes->albedo, planes->normal, planes->depth, planes, world_camera()});
     return s.first_hits;
 }
 

@@ -26,6 +26,7 @@ struct Options {
     double max_seconds = 10;                        // after an edit
     std::vector<std::filesystem::path> peer_images; // JSON of another renderer's images, for the case "quality"
     std::string only;                               // part of the names of the scenes to measure
+    std::string edit;                               // the only kind of edit of the case "quality"; empty: all
     std::filesystem::path scene_folder;             // of the peer comparison; empty: not given
     std::string against;                            // another build of blush, which whole processes are compared with; empty: none
     bool quick = false;                             // for testing the benchmark, not for figures

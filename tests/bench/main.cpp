@@ -100,6 +100,8 @@ int run(int argc, char** argv) {
     app.add_option("--scenes", options.scene_folder,
                    "Folder with the scenes of the peer comparison: cornell.glb, cornell_spheres.glb, dense_cornell.glb");
     app.add_option("--only", options.only, "Scenes whose file name contains this");
+    app.add_option("--edit", options.edit, "The only kind of edit of the case \"quality\"")
+        ->check(CLI::IsMember({"light", "material", "camera", "object", "environment"}));
     app.add_option("--threads", options.threads, "Largest number of threads")->check(CLI::Range(1, 1024))->capture_default_str();
     app.add_option("--seeds", options.rounds, "Seeds of each series of images, rounds of other comparisons")
         ->check(CLI::Range(1, 1000))

@@ -83,7 +83,10 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
     if (!view.wants_denoised()) return cells.push_back({4, "raw", "The raw image is shown, without denoising.", tone::dim_text, 6});
     const DenoisedImage* denoised = c.denoised.get();
     cells.push_back(
-        {19, shown_text(view, frame, denoised), "The displayed image, and how far the denoised one is behind the raw one.", tone::text, 7});
+        {19, shown_text(view, frame, denoised),
+         "The displayed image, and how far the denoised one is behind the raw one. While the camera moves, parts of the view before are "
+         "shown; they are never measured or saved.",
+         tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),
                      "Change of the mean luminance by the denoiser. The estimated error is that of the raw image.", tone::text, 3});

@@ -18,7 +18,9 @@ size_t bytes_of(const Frame& f) {
            bytes_of(f.survival);
 }
 
-size_t bytes_of(const DenoisedImage& d) { return bytes_of(d.denoised.rgb) + (d.groups ? bytes_of(d.groups->planes) : 0); }
+size_t bytes_of(const DenoisedImage& d) {
+    return bytes_of(d.denoised.rgb) + bytes_of(d.with_history.rgb) + (d.groups ? bytes_of(d.groups->planes) : 0);
+}
 
 size_t bytes_of(const FilmState& f) {
     size_t sum = bytes_of(f.shares[0]) + bytes_of(f.shares[1]) + bytes_of(f.marked);

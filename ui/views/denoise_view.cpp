@@ -56,7 +56,9 @@ std::string shown_text(const DenoiseView& view, const Frame& frame, const Denois
     std::string text = view.show == DenoiseView::Show::denoised ? "denoised"
                        : view.show == DenoiseView::Show::blend  ? fmt::format("blend {:.0f} %", 100 * view.blend)
                                                                 : "difference";
-    const std::string_view edges = denoised->is_enlarged ? ", edges sharpened" : "";
+    const std::string edges =
+        std::string(denoised->is_enlarged ? ", edges sharpened" : "") +
+        (denoised->has_history() ? fmt::format(", {:.0f} % of the view before", 100 * denoised->with_history.share) : "");
     if (denoised->divider != frame.divider) return text + fmt::format(" of 1/{} size{}", denoised->divider, edges);
     text += edges;
     const int64_t samples = frame.samples - denoised->samples;

@@ -82,6 +82,11 @@ double BackgroundDenoiser::coarse_speed() const {
     return wanted_ && failure_.empty() ? cadence_.coarse_speed() : 0;
 }
 
+double BackgroundDenoiser::history_seconds(uint64_t look) const {
+    const std::lock_guard lock(mutex_);
+    return history_look_ == look ? history_seconds_ : 0;
+}
+
 bool BackgroundDenoiser::is_on() const {
     const std::lock_guard lock(mutex_);
     return wanted_ && maker_ && failure_.empty();
@@ -131,10 +136,11 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
         const double preparing = all->front().seconds_of_preparation;
-        if (!task.frame->first_hits) return {denoised_image(*task.frame, quality, *std::move(all)), {}, preparing};
         const double begun = now();
-        DenoisedPtr denoised = denoised_image(*task.frame, quality, *std::move(all), &*workers_);
-        return {std::move(denoised), {}, preparing + now() - begun};
+        std::shared_ptr<DenoisedImage> denoised = denoised_image(*task.frame, quality, *std::move(all), &*workers_);
+        const double enlarged = now();
+        history_.follow(task.frame, *denoised, &*workers_);
+        return {std::move(denoised), {}, preparing + now() - begun, now() - enlarged};
     } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
         return {nullptr, e.what()};
     }
@@ -149,6 +155,7 @@ double BackgroundDenoiser::seconds_to_release() const {
 void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     denoise_ = {};
+    history_.forget();
     on_release_();
     lock.lock();
 }
@@ -186,6 +193,9 @@ void BackgroundDenoiser::run() {
         lock.lock();
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.denoised != nullptr);
         failure_ = std::move(outcome.failure);
+        history_look_ = history_.look();
+        if (outcome.denoised && outcome.denoised->has_history() && !outcome.denoised->is_enlarged)
+            history_seconds_ = outcome.seconds_of_history;
         running_ = {};
         update_pause();
         lock.unlock();

@@ -5,6 +5,7 @@
 #include "render/session/denoise_cadence.h"
 #include "render/session/denoised_image.h"
 #include "render/session/pause_gate.h"
+#include "render/session/view_history_keeper.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -48,6 +49,8 @@ public:
     bool offer(uint64_t image, FramePtr frame);
     // Expected seconds per megapixel to denoise a first, coarse image; 0 if such images are not denoised or the speed is not known yet.
     double coarse_speed() const;
+    // Expected seconds to mix a first, coarse image with view history, if there is any of this look (Submission::look); else 0.
+    double history_seconds(uint64_t look) const;
     // True while denoised images are wanted and can be made.
     bool is_on() const;
     // True while the denoiser should run alone: rendering pauses. False again before the result is handed over, or before want()
@@ -65,7 +68,8 @@ private:
     struct Outcome {
         DenoisedPtr denoised;
         std::string failure;
-        double seconds_not_denoising = 0; // of preparation of the network, and of enlarging
+        double seconds_not_denoising = 0; // of preparation of the network, of enlarging, and of history
+        double seconds_of_history = 0;
     };
 
     void run();
@@ -100,11 +104,14 @@ private:
     DenoiseCadence cadence_;
     std::string failure_;
     double unwanted_since_ = 0;
+    uint64_t history_look_ = 0;
+    double history_seconds_ = 0.006; // of the last first image; at first as measured for 1280x720 on two cores
 
     // Used only by the denoiser thread: the denoiser while it exists, the exposure scales of the last image (one per light group
     // if groups are mixed) and that image.
     DenoiseFunction denoise_;
     std::optional<Workers> workers_; // empty until the first image is denoised
+    ViewHistoryKeeper history_;
     std::vector<float> scales_;
     uint64_t scale_image_ = 0;
     std::thread thread_;

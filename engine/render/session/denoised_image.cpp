@@ -41,7 +41,8 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
     return inputs;
 }
 
-DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised, const Workers* workers) {
+std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised,
+                                              const Workers* workers) {
     if (source.first_hits) {
         const FirstHitPlanes coarse{source.width, source.height, source.albedo, source.normal, source.depth, {}};
         for (Denoised& d : denoised) d.rgb = upsample_jointly(d.rgb, coarse, *source.first_hits, workers);
@@ -76,6 +77,12 @@ DenoisedPtr remixed(const DenoisedImage& image, const Gains& gains) {
     mixed->gains = gains;
     mixed->denoised.rgb = mixed_rgb(image, gains);
     return mixed;
+}
+
+DenoisedPtr without_history(const DenoisedImage& image) {
+    auto plain = std::make_shared<DenoisedImage>(image);
+    plain->with_history = {};
+    return plain;
 }
 
 std::vector<PlaneSpan> planes_of(const DenoisedImage& image) { return {image.groups->planes.begin(), image.groups->planes.end()}; }

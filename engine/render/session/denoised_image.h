@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/denoise/denoiser.h"
+#include "render/denoise/view_history.h"
 #include "render/frame.h"
 #include "render/light_mix/light_groups.h"
 
@@ -34,6 +35,10 @@ struct DenoisedImage {
     Denoised denoised;                            // of the whole image; with groups, the sum of the denoised groups, each times its gain
     std::shared_ptr<const DenoisedGroups> groups; // null: denoised as a whole
     Gains gains;                                  // of the groups
+
+    // `denoised` mixed with denoised images of earlier views (view_history.h): only for display, never measured or saved.
+    WithHistory with_history;
+    bool has_history() const { return !with_history.rgb.empty(); }
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedImage>;
 
@@ -43,9 +48,12 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
 // Combines the results for denoise_inputs(); groups are mixed with the frame's gains. Enlarged by the frame's first hits, if it has them.
 // Null workers: on this thread.
-DenoisedPtr denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised, const Workers* workers = nullptr);
+std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised,
+                                              const Workers* workers = nullptr);
 // The same image with other gains.
 DenoisedPtr remixed(const DenoisedImage& image, const Gains& gains);
+// The same image, displayed as it is measured and saved.
+DenoisedPtr without_history(const DenoisedImage& image);
 // The groups, each denoised separately; it must have groups.
 std::vector<std::span<const float>> planes_of(const DenoisedImage& image);
 // The pixels with other gains, width * height * 3; it must have groups.

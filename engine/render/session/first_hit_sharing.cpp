@@ -29,7 +29,7 @@ void FirstHitSharing::share(Renderer& renderer, const std::shared_ptr<Frame>& fr
         frame->first_hits = first_hits_for(*frame, renderer, has_first_image);
     else if (frame->whole)
         renderer.keep_first_hits(std::make_shared<const FirstHitPlanes>(
-            FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth, frame}));
+            FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth, frame, renderer.world_camera()}));
 }
 
 } // namespace blush

@@ -168,6 +168,9 @@ std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
     std::shared_ptr<Frame> frame = frames.take();
     renderer->resolve(*frame);
     frame->revision = current->revision;
+    frame->look = current->look;
+    frame->camera = frame->whole && renderer->has_sharp_first_hits() ? std::optional(renderer->world_camera()) : std::nullopt;
+
     frame->seconds = scheduler.seconds();
     estimate_error(*frame, wants_error);
     frame->complete = scheduler.finished();
@@ -241,7 +244,7 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     estimated = {};
     scheduler.restart(film_settings, true);
     const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
-    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed());
+    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed(), denoiser->history_seconds(current->look));
     announce(SessionStatus::State::updating);
     if (!renderer)
         renderer.emplace(RendererOptions{

@@ -50,7 +50,9 @@ int Scheduler::first_divider() const {
     const double full = timings_.first_sample_seconds > 0 ? timings_.first_sample_seconds : pixels / 2e6;
     const int raw = divider_within(first_image_seconds, full);
     if (raw == 1 || denoising_seconds_per_pixel_ == 0) return raw;
-    const int denoised = divider_within(first_denoised_seconds, full + pixels * denoising_seconds_per_pixel_);
+    // At least half of the time is left, so that a slow machine does not get images that are too coarse to be mixed with history.
+    const double left = std::max(first_denoised_seconds - history_seconds_, first_denoised_seconds / 2);
+    const int denoised = divider_within(left, full + pixels * denoising_seconds_per_pixel_);
     return denoised <= 2 * raw ? std::max(raw, denoised) : raw;
 }
 

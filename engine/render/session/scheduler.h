@@ -43,8 +43,12 @@ public:
 
     // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);
-    // After a restart: seconds that denoising would take per film pixel of a coarse image; 0: first images are shown as they are.
-    void expect_denoising(double seconds_per_pixel) { denoising_seconds_per_pixel_ = seconds_per_pixel; }
+    // After a restart: seconds that denoising would take per film pixel of a coarse image, 0: first images are shown as they are; and that
+    // mixing the result with view history takes.
+    void expect_denoising(double seconds_per_pixel, double history_seconds = 0) {
+        denoising_seconds_per_pixel_ = seconds_per_pixel;
+        history_seconds_ = history_seconds;
+    }
     // After a restart: continues from so many samples per pixel, rendered in `seconds`.
     void resume(int64_t samples, double seconds);
     // For changed stop rules of an unchanged image.
@@ -82,7 +86,7 @@ private:
     int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
     bool interactive_ = true;
-    double denoising_seconds_per_pixel_ = 0;
+    double denoising_seconds_per_pixel_ = 0, history_seconds_ = 0;
     double seconds_ = 0;      // render time of this revision
     double last_publish_ = 0; // seconds_ when last published
     double error_ = -1;       // last estimate, made at

@@ -44,6 +44,8 @@ SubmissionPtr next_submission(const Submission* last, uint64_t revision, const S
                                                         .changes = std::move(changes)});
     next->continues_image = last && !has_loaded_samples && continues(*last, *next);
     next->image = (last ? last->image : 0) + !next->continues_image;
+    next->look = (last ? last->look : 0) + !(last && (next->continues_image || next->changes.only_view()));
+
     if (next->continues_image) {
         next->groups = last->groups;
     } else if (next->scene.mix.grouping != LightMix::Grouping::none) {

@@ -17,6 +17,9 @@ struct Submission {
     uint64_t revision = 0;
     // Equal for submissions that share samples: these differ at most in the light mix, stop rules and what does not reach the image.
     uint64_t image = 0;
+    // Equal for submissions whose images differ at most in the view.
+    uint64_t look = 0;
+
     Scene scene;
     RenderSettings settings;
     PlaneSet planes; // in addition to the first-hit planes

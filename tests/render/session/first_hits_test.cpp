@@ -154,15 +154,20 @@ Project large_project() {
     return project;
 }
 
+void brighten(Project& project, uint64_t revision) {
+    const auto [id, light] = project.scene.lights.entries()[0];
+    change(project.scene.lights, id, [&](Light& l) { l.intensity = float(revision); });
+}
+void orbit(Project& project, uint64_t revision) { project.scene.view.position.x += 0.05f * float(revision); }
+
 // The first denoised images of a few edits, each of a coarse frame.
-std::vector<test::Event> dragged(const Project& project) {
+std::vector<test::Event> dragged(const Project& project, void (*edit)(Project&, uint64_t) = brighten) {
     test::RecordingSession session(2, {}, unchanged);
     session->want_denoised(true);
     constexpr uint64_t learnt = 3, last = 6; // before, the speed of denoising is not known
     for (uint64_t revision = 1; revision <= last; ++revision) {
         Project edited = project;
-        const auto [id, light] = project.scene.lights.entries()[0];
-        change(edited.scene.lights, id, [&](Light& l) { l.intensity = float(revision); });
+        edit(edited, revision);
         session->submit(revision, edited.scene, edited.render);
         session.wait_for([&](const test::Event& e) {
             return e.denoised && e.denoised->revision == revision && e.denoised->quality == DenoiseQuality::high;
@@ -187,6 +192,68 @@ TEST(FirstHits, EnlargeDenoisedCoarseImages) {
         EXPECT_EQ(image.width, 512);
         EXPECT_EQ(image.height, 512);
         EXPECT_EQ(image.denoised.rgb.size(), size_t(3 * 512 * 512));
+    }
+}
+
+TEST(ViewHistory, BeginsTheImagesOfAMovedCamera) {
+    const std::vector<test::Event> events = dragged(large_project(), orbit);
+    ASSERT_FALSE(events.empty()) << "no image was coarse";
+    for (const test::Event& e : events) {
+        const DenoisedImage& image = *e.denoised;
+        ASSERT_TRUE(image.has_history());
+        const WithHistory& mixed = image.with_history;
+        EXPECT_EQ(mixed.width, image.is_enlarged ? 512 : 256);
+        EXPECT_EQ(mixed.rgb.size(), size_t(3 * mixed.width * mixed.height));
+        EXPECT_GT(mixed.share, 0.2f);
+        EXPECT_LE(mixed.share, 1.f);
+        // Those that are measured and saved have none.
+        EXPECT_EQ(image.denoised.rgb.size(), size_t(3 * image.width * image.height));
+        if (image.is_enlarged) continue;
+        for (size_t i = 0; i < e.frame->rgba.size() / 4; ++i) ASSERT_EQ(image.denoised.rgb[3 * i], e.frame->rgba[4 * i]);
+        const DenoisedPtr plain = without_history(image);
+        EXPECT_FALSE(plain->has_history());
+        EXPECT_EQ(plain->denoised.rgb, image.denoised.rgb);
+    }
+}
+
+// As after N in the window.
+TEST(ViewHistory, BeginsWithAnImageThatWasDenoisedLater) {
+    test::RecordingSession session(2, {}, unchanged);
+    Project project = large_project();
+    session->submit(1, project.scene, project.render);
+    session.wait_for(1, SessionStatus::State::complete);
+    session->want_denoised(true);
+    const test::Event denoised = session.wait_for([](const test::Event& e) { return e.denoised != nullptr; });
+    EXPECT_EQ(denoised.denoised->divider, 1);
+    ASSERT_TRUE(denoised.frame->camera);
+    orbit(project, 2);
+    session->submit(2, project.scene, project.render);
+    const test::Event moved = session.wait_for([](const test::Event& e) { return e.denoised && e.denoised->revision == 2; });
+    EXPECT_EQ(moved.denoised->has_history(), moved.denoised->divider > 1);
+}
+
+TEST(ViewHistory, EndsWithEditsOfTheScene) {
+    for (const test::Event& e : dragged(large_project())) EXPECT_FALSE(e.denoised->has_history());
+    Project mixed = large_project();
+    mixed.scene.mix.grouping = LightMix::Grouping::by_light;
+    for (const test::Event& e : dragged(mixed, orbit)) EXPECT_FALSE(e.denoised->has_history()) << "groups are remixed";
+    Project blurred = large_project();
+    blurred.scene.view.lens.aperture_radius = 0.1f;
+    for (const test::Event& e : dragged(blurred, orbit)) EXPECT_FALSE(e.denoised->has_history()) << "out of focus";
+}
+
+// Once an image is denoised at full size, history would only hold back what depends on the view.
+TEST(ViewHistory, IsNotInImagesOfFullSize) {
+    test::RecordingSession session(2, {}, unchanged);
+    session->want_denoised(true);
+    for (uint64_t revision = 1; revision <= 3; ++revision) {
+        Project project = large_project();
+        orbit(project, revision);
+        session->submit(revision, project.scene, project.render);
+        const test::Event last = session.wait_for([&](const test::Event& e) {
+            return e.denoised && e.denoised->revision == revision && e.denoised->quality == DenoiseQuality::high;
+        });
+        EXPECT_FALSE(last.denoised->has_history());
     }
 }
 

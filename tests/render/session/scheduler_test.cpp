@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -93,6 +94,20 @@ TEST(Scheduler, FirstImageLeavesTimeForDenoising) {
     Scheduler fast = trained({0.001}, endless());
     fast.expect_denoising(0.1 / pixels);
     EXPECT_EQ(fast.next().divider, 1) << "full resolution needs no coarse image";
+}
+
+TEST(Scheduler, FirstImageLeavesTimeForHistory) {
+    const double pixels = 1280 * 720, sample_seconds = 0.2, denoising = 2e-7;
+    int last = 0;
+    for (const double history : {0.0, 0.006, 0.01, 1.0}) {
+        Scheduler scheduler = trained({sample_seconds}, endless());
+        scheduler.expect_denoising(denoising, history);
+        const int d = scheduler.next().divider;
+        const double left = std::max(Scheduler::first_denoised_seconds - history, Scheduler::first_denoised_seconds / 2);
+        EXPECT_LE((sample_seconds + pixels * denoising) / (d * d), left * Scheduler::timing_tolerance) << history;
+        EXPECT_GE(d, last);
+        last = d;
+    }
 }
 
 TEST(Scheduler, FirstImageHasAMinimumSize) {
@@ -381,7 +396,7 @@ TEST(Scheduler, RestartForgetsTheImageAndKeepsTheTimings) {
 // As with what pilots learn: light paths, or learned roulette.
 TEST(Scheduler, SlowerLaterSamplesDoNotDelayTheFirst) {
     const Machine machine{0.3}, later{0.9};
-    const auto first_image = [](Scheduler& scheduler, const Machine& machine) {
+    const auto first_image = [&](Scheduler& scheduler) {
         std::vector<std::pair<int, int64_t>> works;
         do {
             const Work work = scheduler.next();
@@ -391,15 +406,15 @@ TEST(Scheduler, SlowerLaterSamplesDoNotDelayTheFirst) {
         return works;
     };
     Scheduler same = trained(machine, endless()), slower = same;
-    EXPECT_EQ(first_image(same, machine), first_image(slower, machine));
+    EXPECT_EQ(first_image(same), first_image(slower));
     machine.run(same, 30);
     later.run(slower, 30);
     EXPECT_GT(slower.timings().sample_seconds, 2 * same.timings().sample_seconds);
     same.restart(endless(), true);
     slower.restart(endless(), true);
-    const auto works = first_image(same, machine);
+    const auto works = first_image(same);
     EXPECT_GT(works.size(), 2u);
-    EXPECT_EQ(works, first_image(slower, machine));
+    EXPECT_EQ(works, first_image(slower));
 }
 
 } // namespace

@@ -56,6 +56,21 @@ TEST_F(Submissions, StopRulesAndNamesContinueIt) {
     EXPECT_EQ(last->image, before->image);
 }
 
+TEST_F(Submissions, TheLookIsTheSameFromAnyView) {
+    const uint64_t look = last->look;
+    scene.view.position.x += 1;
+    EXPECT_FALSE(submit().continues_image);
+    EXPECT_EQ(last->look, look);
+    settings.spp += 8;
+    EXPECT_EQ(submit().look, look);
+    scene.view.position.x += 1;
+    edit_lamp([](Light& lamp) { lamp.radius += 0.1f; });
+    EXPECT_NE(submit().look, look) << "the light changed with the view";
+    const uint64_t other = last->look;
+    settings.width += 8;
+    EXPECT_NE(submit().look, other) << "images of another size";
+}
+
 TEST_F(Submissions, EmissionOfMixedLightsContinuesIt) {
     edit_lamp([](Light& lamp) { lamp.intensity *= 3; });
     EXPECT_TRUE(submit().continues_image);

@@ -83,6 +83,10 @@ TEST(DenoiseView, TextNamesTheImageAndItsDelay) {
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size");
     denoised.is_enlarged = true;
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size, edges sharpened");
+    denoised.with_history = {1, 1, {1, 2, 3}, 0.6f};
+    EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size, edges sharpened, 60 % of the view before");
+    // Tools measure what is saved.
+    EXPECT_EQ(denoised_pixel(frame, denoised, 0, 0).x, denoised.denoised.rgb[0]);
 }
 
 } // namespace
