@@ -17,12 +17,13 @@ constexpr float largest_distance = 0.01f;                   // of a point of the
 constexpr float least_cosine = 0.8f;                        // between normals; those of film planes are shorter than 1 at edges
 constexpr float least_share = 0.05f;                        // of the taps that show the surface
 constexpr int cell = 4;                                     // pixels; means are compared over three by three cells
-constexpr float alike = 0.2f, other = 0.6f;                 // relative differences of means at which history counts fully, and not at all
-constexpr int block = 2, steps = 6;                         // pixels with one search, and its steps
-constexpr float searched_distance = 0.05f;                  // of a point from the one found, over the distance of the camera
-constexpr float small_residual = 0.1f;                      // pixels, at which the search ends
-constexpr float largest_residual = 0.75f;                   // pixels, after the search
-constexpr float depth_slack = 1.05f;                        // of depths in coarse images
+// Relative differences of means at which history counts fully, and not at all; of a coarse image, and of one of full size.
+constexpr float alike = 0.2f, other = 0.6f, alike_in_full = 0.05f, other_in_full = 0.2f;
+constexpr int block = 2, steps = 6;        // pixels with one search, and its steps
+constexpr float searched_distance = 0.05f; // of a point from the one found, over the distance of the camera
+constexpr float small_residual = 0.1f;     // pixels, at which the search ends
+constexpr float largest_residual = 0.75f;  // pixels, after the search
+constexpr float depth_slack = 1.05f;       // of depths in coarse images
 
 // By which radiance is divided: the albedo, or 1 where there is hardly any, as on lamps: with their radiance over albedo, pixels beside
 // them would be fireflies. The albedo of a miss is the radiance of the background.
@@ -163,8 +164,8 @@ struct Surface {
 
 class Reprojection {
 public:
-    Reprojection(std::span<const float> rgb, const FirstHitPlanes& now, const ViewHistory& history)
-        : rgb_(rgb), now_(now), history_(history), is_full_(now.width == history.width),
+    Reprojection(std::span<const float> rgb, bool is_coarse, const FirstHitPlanes& now, const ViewHistory& history)
+        : rgb_(rgb), now_(now), history_(history), is_coarse_(is_coarse), is_full_(now.width == history.width),
           width_(is_full_ ? history.width : (history.width + 1) / 2), height_(is_full_ ? history.height : (history.height + 1) / 2),
           scale_x_(float(history.width) / float(width_)), scale_y_(float(history.height) / float(height_)),
           here_(now.camera, width_, height_), there_(history.camera, history.width, history.height),
@@ -404,7 +405,8 @@ private:
             }
         const float most = std::max(now, before);
         if (!(most > 0)) return 1;
-        return std::clamp((other - std::abs(now - before) / most) / (other - alike), 0.f, 1.f);
+        const float least = is_coarse_ ? alike : alike_in_full, largest = is_coarse_ ? other : other_in_full;
+        return std::clamp((largest - std::abs(now - before) / most) / (largest - least), 0.f, 1.f);
     }
 
     // By how alike history and image are around a pixel; interpolated between cells.
@@ -421,9 +423,9 @@ private:
     std::span<const float> rgb_;
     const FirstHitPlanes& now_;
     const ViewHistory& history_;
-    bool is_full_;
-    int width_, height_;      // of the result
-    float scale_x_, scale_y_; // pixels of the history for one of the result
+    bool is_coarse_, is_full_; // of the rendered image; of the known first hits
+    int width_, height_;       // of the result
+    float scale_x_, scale_y_;  // pixels of the history for one of the result
 
     Projection here_, there_;
     Vec3 offset_; // of the camera from that of the history
@@ -443,8 +445,9 @@ ViewHistory::ViewHistory(const FirstHitPlanes& seen, std::vector<float> radiance
     }
 }
 
-WithHistory with_history(std::span<const float> rgb, const FirstHitPlanes& seen, const ViewHistory& history, const Workers* workers) {
-    Reprojection reprojection(rgb, seen, history);
+WithHistory with_history(std::span<const float> rgb, bool is_coarse, const FirstHitPlanes& seen, const ViewHistory& history,
+                         const Workers* workers) {
+    Reprojection reprojection(rgb, is_coarse, seen, history);
     const size_t pixels = size_t(reprojection.width()) * size_t(reprojection.height());
     WithHistory out{reprojection.width(), reprojection.height(), std::vector<float>(3 * pixels), 0};
     const int rows = reprojection.rows_of_cells();

@@ -1,5 +1,7 @@
 #include "render/session/view_history_keeper.h"
 
+#include "render/session/denoise_cadence.h"
+
 namespace blush {
 namespace {
 
@@ -18,10 +20,10 @@ void ViewHistoryKeeper::follow(const FramePtr& frame, DenoisedImage& denoised, c
     look_ = frame->look;
     const FirstHitPlanesPtr seen = seen_by(frame);
     if (seen->depth.empty() || seen->albedo.empty() || seen->normal.empty()) return;
-    if (frame->divider == 1)
-        history_ = ViewHistory(*seen, denoised.denoised.rgb);
-    else if (!history_.empty() && frame->camera != history_.camera)
-        denoised.with_history = with_history(denoised.denoised.rgb, *seen, history_, workers);
+    const bool is_coarse = frame->divider > 1, may_mix = is_coarse || frame->samples < DenoiseCadence::renewal_growth;
+    if (may_mix && !history_.empty() && frame->camera != history_.camera)
+        denoised.with_history = with_history(denoised.denoised.rgb, is_coarse, *seen, history_, workers);
+    if (!is_coarse) history_ = ViewHistory(*seen, denoised.denoised.rgb);
 }
 
 } // namespace blush

@@ -12,8 +12,9 @@ namespace blush {
 // Keeps the last denoised image of full size. Only one thread may use it.
 class ViewHistoryKeeper {
 public:
-    // Mixes history into a denoised coarse image of `frame`, if it has the same look (Submission::look) and another view; keeps one of full
-    // size. Not with light groups, an aperture, a transparent image, or a region.
+    // Mixes history into the denoised image of `frame`, if it has the same look (Submission::look) and another view, and is coarse or the
+    // first one of full size, before its samples have quadrupled (DenoiseCadence). Keeps one of full size, as it was denoised. Not with
+    // light groups, an aperture, a transparent image, or a region.
     void follow(const FramePtr& frame, DenoisedImage& denoised, const Workers* workers);
     // Of the image that is kept; 0: none.
     uint64_t look() const { return history_.empty() ? 0 : look_; }

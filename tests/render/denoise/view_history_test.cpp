@@ -113,7 +113,7 @@ TEST_P(Cameras, HistoryIsSeenWhereItsSurfacesAre) {
     const auto old = seen_by(camera_at(0, before), wall), now = seen_by(camera_at(0.2, after), wall);
     std::vector<float> blurred = now->rgb;
     for (size_t i = 0; i < blurred.size(); ++i) blurred[i] *= i % 2 ? 1.1f : 0.9f;
-    const WithHistory mixed = with_history(blurred, now->planes, history_of(*old));
+    const WithHistory mixed = with_history(blurred, true, now->planes, history_of(*old));
     ASSERT_EQ(mixed.width, width);
     ASSERT_EQ(mixed.height, height);
     EXPECT_GT(mixed.share, 0.8f);
@@ -130,8 +130,8 @@ TEST_P(Cameras, CoarseImagesFindTheirPlaceInTheHistory) {
     const auto old = seen_by(camera_at(0, before), wall), now = seen_by(camera_at(0.2, after), wall);
     const auto coarse = seen_by(camera_at(0.2, after), wall, width / divider, height / divider);
     const std::vector<float> means = averaged(*now, divider), truth = averaged(*now, 2);
-    const WithHistory none = with_history(means, coarse->planes, history_of(*seen_by(camera_at(100), wall)));
-    const WithHistory mixed = with_history(means, coarse->planes, history_of(*old));
+    const WithHistory none = with_history(means, true, coarse->planes, history_of(*seen_by(camera_at(100), wall)));
+    const WithHistory mixed = with_history(means, true, coarse->planes, history_of(*old));
     ASSERT_EQ(mixed.width, width / 2);
     ASSERT_EQ(mixed.height, height / 2);
     EXPECT_EQ(none.share, 0);
@@ -146,7 +146,7 @@ TEST(ViewHistory, SurfacesThatWereHiddenShowTheImageAlone) {
     for (const int divider : {1, 6}) {
         const auto old = seen_by(camera_at(0), square_and_wall);
         const auto now = seen_by(camera_at(0.5), square_and_wall, width / divider, height / divider);
-        const WithHistory mixed = with_history(now->rgb, now->planes, history_of(*old));
+        const WithHistory mixed = with_history(now->rgb, true, now->planes, history_of(*old));
         const auto truth = seen_by(camera_at(0.5), square_and_wall, mixed.width, mixed.height);
         EXPECT_GT(mixed.share, 0.5f);
         // Red beside the square, or green in it: only at its edges, and in coarse images as far as those are coarse.
@@ -160,9 +160,14 @@ TEST(ViewHistory, IsNotUsedWhereTheImageIsAnother) {
     const auto old = seen_by(camera_at(0), wall), now = seen_by(camera_at(0.1), wall);
     std::vector<float> brighter = now->rgb;
     for (float& v : brighter) v *= 4;
-    const WithHistory mixed = with_history(brighter, now->planes, history_of(*old));
+    const WithHistory mixed = with_history(brighter, true, now->planes, history_of(*old));
     EXPECT_EQ(mixed.share, 0);
     EXPECT_EQ(mixed.rgb, brighter);
+    // The mean of an image of full size says more.
+    std::vector<float> brighter_by_a_third = now->rgb;
+    for (float& v : brighter_by_a_third) v *= 1.33f;
+    EXPECT_GT(with_history(brighter_by_a_third, true, now->planes, history_of(*old)).share, 0.8f);
+    EXPECT_LT(with_history(brighter_by_a_third, false, now->planes, history_of(*old)).share, 0.05f);
 }
 
 // Beside a lamp whose albedo is black, radiance over albedo would be a firefly.
@@ -173,7 +178,7 @@ TEST(ViewHistory, LampsLeaveNoFireflies) {
         return std::optional(Hit{p, lit ? Vec3{0, 0, 0} : Vec3{1, 1, 1}, lit ? Vec3{50, 50, 50} : Vec3{1, 1, 1}});
     };
     const auto old = seen_by(camera_at(0), lamp), now = seen_by(camera_at(0.013), lamp);
-    const WithHistory mixed = with_history(now->rgb, now->planes, history_of(*old));
+    const WithHistory mixed = with_history(now->rgb, true, now->planes, history_of(*old));
     EXPECT_GT(mixed.share, 0.8f);
     EXPECT_LE(*std::max_element(mixed.rgb.begin(), mixed.rgb.end()), 50.001f);
     EXPECT_LT(difference(mixed.rgb, now->rgb).share_of_large, 0.001);
@@ -184,12 +189,12 @@ TEST(ViewHistory, DirectionsWithoutSurfacesKeepTheirBackground) {
     const auto old = seen_by(camera_at(0), nothing);
     for (const int divider : {1, 4}) {
         const auto now = seen_by(camera_at(3), nothing, width / divider, height / divider);
-        const WithHistory mixed = with_history(now->flat(0.5f), now->planes, history_of(*old));
+        const WithHistory mixed = with_history(now->flat(0.5f), true, now->planes, history_of(*old));
         EXPECT_NEAR(mixed.share, 1, 1e-3) << "they do not depend on the position";
         EXPECT_NEAR(mixed.rgb[2], 0.75f, 1e-5f);
         // An orthographic camera sees one direction in all pixels.
         const auto flat = seen_by(camera_at(3, true), nothing, width / divider, height / divider);
-        EXPECT_EQ(with_history(flat->rgb, flat->planes, history_of(*old)).share, 0);
+        EXPECT_EQ(with_history(flat->rgb, true, flat->planes, history_of(*old)).share, 0);
     }
 }
 
@@ -197,9 +202,9 @@ TEST(ViewHistory, DoesNotDependOnThreads) {
     for (const int divider : {1, 5}) {
         const auto old = seen_by(camera_at(0), square_and_wall, width + 3, height + 1);
         const auto now = seen_by(camera_at(0.3), square_and_wall, (width + 3) / divider, (height + 1) / divider);
-        const WithHistory alone = with_history(now->rgb, now->planes, history_of(*old));
+        const WithHistory alone = with_history(now->rgb, true, now->planes, history_of(*old));
         const Workers workers(3);
-        const WithHistory many = with_history(now->rgb, now->planes, history_of(*old), &workers);
+        const WithHistory many = with_history(now->rgb, true, now->planes, history_of(*old), &workers);
         EXPECT_EQ(alone.rgb, many.rgb);
         EXPECT_EQ(alone.share, many.share);
     }

@@ -229,7 +229,7 @@ TEST(ViewHistory, BeginsWithAnImageThatWasDenoisedLater) {
     orbit(project, 2);
     session->submit(2, project.scene, project.render);
     const test::Event moved = session.wait_for([](const test::Event& e) { return e.denoised && e.denoised->revision == 2; });
-    EXPECT_EQ(moved.denoised->has_history(), moved.denoised->divider > 1);
+    EXPECT_TRUE(moved.denoised->has_history());
 }
 
 TEST(ViewHistory, EndsWithEditsOfTheScene) {
@@ -242,17 +242,19 @@ TEST(ViewHistory, EndsWithEditsOfTheScene) {
     for (const test::Event& e : dragged(blurred, orbit)) EXPECT_FALSE(e.denoised->has_history()) << "out of focus";
 }
 
-// Once an image is denoised at full size, history would only hold back what depends on the view.
-TEST(ViewHistory, IsNotInImagesOfFullSize) {
+// Then history would only hold back what depends on the view.
+TEST(ViewHistory, EndsWhenSamplesHaveQuadrupled) {
     test::RecordingSession session(2, {}, unchanged);
     session->want_denoised(true);
     for (uint64_t revision = 1; revision <= 3; ++revision) {
         Project project = large_project();
+        project.render.spp = 8;
         orbit(project, revision);
         session->submit(revision, project.scene, project.render);
         const test::Event last = session.wait_for([&](const test::Event& e) {
             return e.denoised && e.denoised->revision == revision && e.denoised->quality == DenoiseQuality::high;
         });
+        EXPECT_EQ(last.denoised->samples, 8);
         EXPECT_FALSE(last.denoised->has_history());
     }
 }
