@@ -33,7 +33,7 @@ public:
     void upload(int width, int height, const std::shared_ptr<const std::vector<float>>& rgba) {
         upload(width, height, Values(rgba, rgba->data()));
     }
-        void upload(const DenoisedPtr& denoised) {
+    void upload(const DenoisedPtr& denoised) {
         const WithHistory& mixed = denoised->with_history;
         if (denoised->has_history()) return upload_denoised(mixed.width, mixed.height, {denoised, mixed.rgb.data()});
         upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()});

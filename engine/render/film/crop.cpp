@@ -25,7 +25,7 @@ DenoisedPtr cropped(const DenoisedPtr& image, const PixelRect& rect) {
     part->width = rect.x1 - rect.x0;
     part->height = rect.y1 - rect.y0;
     part->denoised.rgb = cropped(image->denoised.rgb, image->width, rect, 3);
-            part->with_history = {};
+    part->with_history = {};
     part->groups.reset();
     part->gains.clear();
     return part;

@@ -123,7 +123,7 @@ Run least_disturbed_run(Screen& screen, const Scene& before, const Scene& edited
 
 Json measure(const BenchScene& scene, const ColorManagement& color, const Options& options) {
     const std::vector<double> deadlines = deadlines_of(options);
-        std::vector<EditKind> edits = edits_of(scene.scene);
+    std::vector<EditKind> edits = edits_of(scene.scene);
     if (!options.edit.empty()) std::erase_if(edits, [&](const EditKind& kind) { return kind.name != options.edit; });
 
     std::map<std::string, Scene> edited;
@@ -150,7 +150,7 @@ Json measure(const BenchScene& scene, const ColorManagement& color, const Option
         }
 
     Json rows = Json::array();
-        for (const std::string kind : kinds) {
+    for (const std::string kind : kinds) {
         if (!options.edit.empty() && kind != options.edit) continue;
         if (!edited.contains(kind)) {
             rows.push_back({{"scene", scene.name()}, {"edit", kind}, {"skipped", "the scene has none"}});
