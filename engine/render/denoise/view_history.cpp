@@ -202,7 +202,6 @@ public:
     // After judge(). Returns the sum of the shares of history.
     double mix(int row_of_cells, WithHistory& out) const {
         double shares = 0;
-
         for (int y = row_of_cells * cell; y < std::min(height_, (row_of_cells + 1) * cell); ++y)
             for (int x = 0; x < width_; ++x) {
                 const size_t pixel = size_t(y) * size_t(width_) + size_t(x);

@@ -23,7 +23,8 @@ void ViewHistoryKeeper::follow(const FramePtr& frame, DenoisedImage& denoised, c
     const bool is_coarse = frame->divider > 1, may_mix = is_coarse || frame->samples < DenoiseCadence::renewal_growth;
     if (may_mix && !history_.empty() && frame->camera != history_.camera)
         denoised.with_history = with_history(denoised.denoised.rgb, is_coarse, *seen, history_, workers);
-    if (!is_coarse) history_ = ViewHistory(*seen, denoised.denoised.rgb);
+    if (is_coarse) return;
+    history_ = seen->depth.size() <= most_pixels_ ? ViewHistory(*seen, denoised.denoised.rgb) : ViewHistory();
 }
 
 } // namespace blush

@@ -5,6 +5,7 @@
 #include "render/frame.h"
 #include "render/session/denoised_image.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace blush {
@@ -12,6 +13,11 @@ namespace blush {
 // Keeps the last denoised image of full size. Only one thread may use it.
 class ViewHistoryKeeper {
 public:
+    // 3840 x 2160: 400 MB.
+    static constexpr size_t default_most_pixels = size_t(1) << 23;
+    // `most_pixels`: larger images are not kept, so that memory is bounded.
+    explicit ViewHistoryKeeper(size_t most_pixels = default_most_pixels) : most_pixels_(most_pixels) {}
+
     // Mixes history into the denoised image of `frame`, if it has the same look (Submission::look) and another view, and is coarse or the
     // first one of full size, before its samples have quadrupled (DenoiseCadence). Keeps one of full size, as it was denoised. Not with
     // light groups, an aperture, a transparent image, or a region.
@@ -19,11 +25,12 @@ public:
     // Of the image that is kept; 0: none.
     uint64_t look() const { return history_.empty() ? 0 : look_; }
     // Frees the image.
-    void forget() { *this = {}; }
+    void forget() { history_ = {}; }
 
 private:
+    size_t most_pixels_;
     ViewHistory history_;
-    uint64_t look_ = 0;
+    uint64_t look_ = 0; // of the last frame
 };
 
 } // namespace blush
