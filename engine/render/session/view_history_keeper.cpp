@@ -20,8 +20,8 @@ void ViewHistoryKeeper::follow(const FramePtr& frame, DenoisedImage& denoised, c
     look_ = frame->look;
     const FirstHitPlanesPtr seen = seen_by(frame);
     if (seen->depth.empty() || seen->albedo.empty() || seen->normal.empty()) return;
-    const bool is_coarse = frame->divider > 1, may_mix = is_coarse || frame->samples < DenoiseCadence::renewal_growth;
-    if (may_mix && !history_.empty() && frame->camera != history_.camera)
+    const bool is_coarse = frame->divider > 1, begins = !frame->complete && frame->samples < DenoiseCadence::renewal_growth;
+    if ((is_coarse || begins) && !history_.empty() && frame->camera != history_.camera)
         denoised.with_history = with_history(denoised.denoised.rgb, is_coarse, *seen, history_, workers);
     if (is_coarse) return;
     history_ = seen->depth.size() <= most_pixels_ ? ViewHistory(*seen, denoised.denoised.rgb) : ViewHistory();

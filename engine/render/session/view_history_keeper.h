@@ -19,8 +19,8 @@ public:
     explicit ViewHistoryKeeper(size_t most_pixels = default_most_pixels) : most_pixels_(most_pixels) {}
 
     // Mixes history into the denoised image of `frame`, if it has the same look (Submission::look) and another view, and is coarse or the
-    // first one of full size, before its samples have quadrupled (DenoiseCadence). Keeps one of full size, as it was denoised. Not with
-    // light groups, an aperture, a transparent image, or a region.
+    // first one of full size, before its samples have quadrupled (DenoiseCadence) or it is complete. Keeps one of full size, as it was
+    // denoised. Not with light groups, an aperture, a transparent image, or a region.
     void follow(const FramePtr& frame, DenoisedImage& denoised, const Workers* workers);
     // Of the image that is kept; 0: none.
     uint64_t look() const { return history_.empty() ? 0 : look_; }

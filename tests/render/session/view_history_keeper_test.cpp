@@ -52,6 +52,16 @@ TEST(ViewHistoryKeeper, MixesUntilSamplesHaveQuadrupled) {
     EXPECT_EQ(share_of(keeper, frame_at(0.3, 1, 4)), 0) << "it has enough samples of its own";
 }
 
+TEST(ViewHistoryKeeper, CompleteImagesShowTheirOwnSamples) {
+    for (const bool complete : {false, true}) {
+        ViewHistoryKeeper keeper;
+        share_of(keeper, frame_at(0, 1, 64));
+        const auto frame = frame_at(0.1, 1, 2);
+        frame->complete = complete;
+        EXPECT_EQ(share_of(keeper, frame) > 0, !complete);
+    }
+}
+
 TEST(ViewHistoryKeeper, EndsWithAnotherLook) {
     ViewHistoryKeeper keeper;
     share_of(keeper, frame_at(0, 1, 64));
