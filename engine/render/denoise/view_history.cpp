@@ -35,13 +35,13 @@ Vec3 divisor_of(const FirstHitPlanes& planes, size_t pixel) {
 }
 
 Vec3 at(std::span<const float> rgb, size_t pixel) { return {rgb[3 * pixel], rgb[3 * pixel + 1], rgb[3 * pixel + 2]}; }
-// Of places within an image, from -1 on; floor_of() is a call for the oldest processors.
+// Of places within an image, from -1 on; std::floor() is a function call without SSE4.1, which not all processors have.
 float floor_of(float place) { return float(int(place + 1) - 1); }
 Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // Surfaces of a row of pixels; one array for each number, so that loops over pixels have no strides. First, p is the pixel and the depth of
-// its hit, <= 0 for none. Then p is the position from the history's camera, or the direction of a miss, then the place and, as before, a
-// depth. n: normals. The others: where pixels around the place lie along the normal (Reprojection::sum_at()).
+// its hit, <= 0 for none. Then p is the position from the history's camera, or the direction of a miss; then p_x, p_y are the place.
+// n: normals. The others: where pixels around the place lie along the normal (Reprojection::sum_at()).
 enum Number {
     n_x,
     n_y,
@@ -114,8 +114,8 @@ public:
 
     // Turns positions into places, and says where pixels around them lie along the normals. `finds_misses`: a direction has one place.
     void to_places(Surfaces& row, bool finds_misses) const {
-        float *x = row[p_x], *y = row[p_y], *z = row[p_z];
-        const float *nx = row[n_x], *ny = row[n_y], *nz = row[n_z], *depths = row[depth];
+        float *x = row[p_x], *y = row[p_y];
+        const float *z = row[p_z], *nx = row[n_x], *ny = row[n_y], *nz = row[n_z], *depths = row[depth];
         float *is_seen = row[seen], *planes = row[distance_of_plane], *tolerances = row[tolerated], *laterals = row[lateral_of_normal];
         float *per_x = row[normal_per_x], *per_y = row[normal_per_y], *forward = row[normal_forward], *per_depth = row[forward_per_depth];
         const Vec3 f = c_.forward, r = right_, u = up_, dx = c_.right / half_width_, dy = c_.up / -half_height_;
@@ -139,7 +139,6 @@ public:
             is_seen[i] = inside && (depths[i] > 0 || finds_misses) ? 1.f : 0.f;
             x[i] = at_x;
             y[i] = at_y;
-            z[i] = depths[i];
         }
     }
 
@@ -343,7 +342,7 @@ private:
         const float lateral = row[lateral_of_normal][i], right = row[normal_per_x][i], down = row[normal_per_y][i];
         const float forward = row[normal_forward][i], per_depth = row[forward_per_depth][i];
         const Vec3 n{row[n_x][i], row[n_y][i], row[n_z][i]};
-        const bool miss = row[p_z][i] <= 0, orthographic = history_.camera.orthographic;
+        const bool miss = row[depth][i] <= 0, orthographic = history_.camera.orthographic;
         Found sum{};
         for_each_tap(x, y, [&](size_t index, float tap_x, float tap_y, float weight) {
             const ViewHistory::Pixel& pixel = history_.pixels[index];

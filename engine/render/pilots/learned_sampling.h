@@ -17,7 +17,6 @@
 
 #include <cstdint>
 #include <functional>
-
 #include <memory>
 #include <optional>
 #include <vector>

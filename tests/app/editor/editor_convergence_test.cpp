@@ -124,6 +124,14 @@ TEST_F(Convergence, MarksWherePilotsHaveDecided) {
     EXPECT_EQ(mark.spp, 4);
     EXPECT_EQ(mark.seconds, 0.04);
     EXPECT_FALSE(mark.other_mix);
+    // That of roulette runs later.
+    FeatureUse roulette = paths;
+    roulette.name = "learned roulette";
+    editor.update(view, {frame(16, {textures, paths, reuse, roulette}), nullptr});
+    editor.update(view, {frame(32, {textures, paths, reuse, roulette}), nullptr});
+    ASSERT_EQ(view.runs.live()->record.marks().size(), 2u);
+    EXPECT_EQ(view.runs.live()->record.marks()[1].label, "Pilots: learned roulette");
+    EXPECT_EQ(view.runs.live()->record.marks()[1].spp, 16);
 }
 
 TEST_F(Convergence, RecordsOnlyFullResolutionImagesOfTheRun) {
