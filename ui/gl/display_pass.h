@@ -34,9 +34,8 @@ public:
         upload(width, height, Values(rgba, rgba->data()));
     }
     void upload(const DenoisedPtr& denoised) {
-        const WithHistory& mixed = denoised->with_history;
-        if (denoised->has_history()) return upload_denoised(mixed.width, mixed.height, {denoised, mixed.rgb.data()});
-        upload_denoised(denoised->width, denoised->height, {denoised, denoised->denoised.rgb.data()});
+        const DenoisedImage::Displayed displayed = denoised->displayed();
+        upload_denoised(displayed.width, displayed.height, {denoised, displayed.rgb.data()});
     }
     void upload_denoised(int width, int height, const std::shared_ptr<const std::vector<float>>& rgb) {
         upload_denoised(width, height, Values(rgb, rgb->data()));

@@ -39,6 +39,15 @@ struct DenoisedImage {
     // `denoised` mixed with denoised images of earlier views (view_history.h): only for display, never measured or saved.
     WithHistory with_history;
     bool has_history() const { return !with_history.rgb.empty(); }
+    struct Displayed {
+        int width, height;
+        const std::vector<float>& rgb;
+    };
+    // With history, if it has any.
+    Displayed displayed() const {
+        if (has_history()) return {with_history.width, with_history.height, with_history.rgb};
+        return {width, height, denoised.rgb};
+    }
 };
 using DenoisedPtr = std::shared_ptr<const DenoisedImage>;
 

@@ -57,10 +57,9 @@ ShownError ErrorMeter::of(const Images& images, bool denoised) const {
     const Frame& frame = *images.frame;
     // As the display pass draws it with a GPU.
     if (denoised && images.denoised && (images.denoised->width > frame.width || images.denoised->has_history())) {
-        const DenoisedImage& image = *images.denoised;
-        const WithHistory& mixed = image.with_history;
-        RgbImage shown{image.has_history() ? mixed.width : image.width, image.has_history() ? mixed.height : image.height, {}};
-        const std::vector<float>& rgb = image.has_history() ? mixed.rgb : image.denoised.rgb;
+        const auto& [width, height, rgb] = images.denoised->displayed();
+        RgbImage shown{width, height, {}};
+
         for (size_t i = 0; i < rgb.size(); i += 3) shown.pixels.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
         return of(shown);
     }
