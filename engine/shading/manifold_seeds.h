@@ -1,4 +1,4 @@
-// Seeds of manifold sampling (render/integrator/manifold_sampling.h): where Newton's method begins to look for the ways by which light
+// Seeds of manifold sampling (render/integrator/manifold/manifold_sampling.h): where Newton's method looks for the ways by which light
 // reaches a diffuse surface through mirrors and glass. Photons have found them; they are stored by region of the receivers.
 #pragma once
 

@@ -14,7 +14,7 @@ enum MaterialFlag : int32_t {
     material_thin = 4,     // transmits like a sheet without inside
     material_emissive = 8, // emission is not black
     material_pane = 16,    // thin, and may be smooth: light may pass straight through (render/integrator/thin_transmission.h)
-    material_chains = 32,  // its delta lobes may be events of manifold sampling (render/integrator/manifold_sampling.h)
+    material_chains = 32,  // its delta lobes may be events of manifold sampling (render/integrator/manifold/manifold_sampling.h)
 };
 enum MaterialAlpha : int32_t { alpha_opaque, alpha_mask, alpha_blend };
 

@@ -32,6 +32,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     generate_paths<s, float>(context, {x, y, 1, 1, sample, 1}, scratch);
     if (samples_manifolds<s>(*context.scene)) scratch.manifolds = std::make_unique<ManifoldColumns>();
+    if (connects_light_vertices<s>(*context.scene)) trace_light_vertices<s, float>(context, scratch);
     for (int bounce = 0; now->size > 0 && bounce < longest; ++bounce) {
         const Vec3d traced = radiance();
         trace_paths<s, float>(context, scratch, *now, *next, bounce);
@@ -57,7 +58,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         connect_paths<s, float>(context, scratch, bounce);
         const Vec3d connected = radiance();
         vertex.arrived = to_float(connected - before);
-        if (chains) sample_manifolds<s, float>(context, scratch, *now, bounce);
+        if (chains) add_chains<s, float>(context, scratch, *now, bounce);
         vertex.chains = to_float(radiance() - connected);
         if (!visit(vertex)) break;
         std::swap(now, next);

@@ -110,7 +110,7 @@ Vec3 sample_direction(const LightPoint<float>& p, const CasterSphere& caster, bo
 
 } // namespace
 
-LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphere& scene)
+LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits)
     : casters_(tables.guides.casters), scene_(scene), lights_(tables.lights.count) {
     const size_t columns = size_t(casters_.count) + 1;
     if (casters_.count == 0 || lights_ == 0 || int64_t(lights_) * int64_t(columns) > max_pairs) return;
@@ -118,6 +118,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
     std::vector<double> flux(size_t(lights_) * columns);
     double aimed = 0, all = 0;
     for (size_t i = 0; i < size_t(lights_); ++i) {
+        if (!emits(int32_t(i))) continue;
         const LightRecord& light = tables.lights.lights[i];
         for (size_t k = 0; k < columns; ++k) {
             double& f = flux[i * columns + k];
@@ -163,6 +164,17 @@ EmissionTables LightPathEmission::tables(float paths) const {
 
 EmittedPath LightPathEmission::emit(const SceneTables& tables, const Sampler<float>& sampler) const {
     return emit_by(tables, {sampler.pair(pair_dimension), sampler.pair(point_dimension), sampler.pair(direction_dimension)}, sampler.index);
+}
+
+void LightPathEmission::emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
+                                   std::vector<EmittedPath>& emitted) const {
+    emitted.clear();
+    for (int k = 0; k < count; ++k) {
+        EmittedPath path = emit(scene, {keys[k], indices[k]});
+        path.index = uint32_t(k);
+        if (path.density > 0) emitted.push_back(path);
+    }
+    std::ranges::stable_sort(emitted, {}, &EmittedPath::place);
 }
 
 EmittedPath LightPathEmission::emit_by(const SceneTables& tables, const Random& numbers, uint32_t index) const {

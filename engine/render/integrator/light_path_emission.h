@@ -6,20 +6,22 @@
 #include "render/kernels/kernel.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace blush {
 
 // Pairs of lights and casters, for one image. Sampled with the density of emission_density().
-class LightPathEmission {
+class LightPathEmission final : public PathEmitter {
 public:
     // No more pairs: the table would be slower than it is useful.
     static constexpr int64_t max_pairs = 1 << 20;
 
     LightPathEmission() = default;
-    // For lights with a size that NEE can sample. `scene`: contains all surfaces. Empty if no light reaches a caster, or there are too many
-    // pairs.
-    LightPathEmission(const SceneTables& tables, const CasterSphere& scene);
+    // For lights with a size that NEE can sample, of these those for which `emits(record)` is true. `scene`: contains all surfaces. Empty
+    // if no light reaches a caster, or there are too many pairs.
+    LightPathEmission(
+        const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits = [](int32_t) { return true; });
 
     // For all lights, also those without size, towards the whole scene: for photon maps (photon_map.h).
     static LightPathEmission of_all_lights(const SceneTables& tables, const CasterSphere& scene);
@@ -35,6 +37,8 @@ public:
     EmittedPath emit_by(const SceneTables& tables, const Random& random, uint32_t index = 0) const;
     // With the first pairs of the sampler (light_paths.h).
     EmittedPath emit(const SceneTables& tables, const Sampler<float>& sampler) const;
+    void emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
+                    std::vector<EmittedPath>& emitted) const override;
     size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }
 
 private:

@@ -65,17 +65,40 @@ template <Features S, class F> CameraConnection<F> connect_camera(const CameraRe
 
 // A vertex of a light path.
 template <class F> struct LightVertex {
-    const Surface<F>& surface;
-    const MaterialPoint<F>& material;
-    const ShadingFrame<F>& shading; // as seen from the vertex before
-    const Bsdf<F>& bsdf;            // likewise
-    Vec<F> wo;                      // unit, world: towards the vertex before
-    F cosine;                       // between wo and the geometric normal, > 0
+    Surface<F> surface;
+    MaterialPoint<F> material;
+    HitSide<F> side;         // wo: unit, towards the vertex before
+    ShadingFrame<F> shading; // as seen from the vertex before
+    Bsdf<F> bsdf;            // likewise
+    F cosine;                // between wo and the geometric normal, > 0
     Vec<F> beta;
-    F hit_ratio, nee_ratio; // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
     Mask<F> scatters;
-    Mask<F> dispersed; // the path carries a single wavelength
+    Mask<F> dispersed;                        // the path carries a single wavelength
+    F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
 };
+// Where the path meets a surface, in the lanes of `met`.
+template <Features S, class F> [[gnu::always_inline]] inline LightVertex<F>
+light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met) {
+    // Textures are filtered as the camera sees them.
+    const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
+    const float cone = camera_cone(scene.camera, settings);
+    const F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
+    const Surface<F> surface = surface_at<S, F>(scene, hit, met, footprint);
+    MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, met);
+    const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
+    Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
+    const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
+    const Mask<F> scatters = met && !material.unlit;
+    const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
+    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
+    return {surface, material, side, shading, bsdf, clamped_cosine<F>(shading.ng, side.wo), beta, scatters, dispersed};
+}
+// Weight of a sample of a delta lobe: what it leaves of the light that passes it. `cosine`: between wi and the geometric normal; `choice`:
+// of the lobe.
+template <Features S, class F>
+[[gnu::always_inline]] inline Vec<F> delta_light_weight(const LightVertex<F>& v, const BsdfSample<F>& s, const F& cosine, const F& choice) {
+    return s.weight * (cosine / v.cosine * delta_adjoint<S, F>(v.bsdf, v.material.bsdf.layers, v.shading.wo, s.wi, choice));
+}
 
 // Density with which NEE at the first vertex samples the point of the light, over projected solid angle.
 template <Features S, class F>
@@ -89,7 +112,7 @@ F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted,
         light[i] = e.light;
     });
     const Vec<F> position{load<F>(x), load<F>(y), load<F>(z)}, normal{load<F>(nx), load<F>(ny), load<F>(nz)};
-    const auto at = emission_point<S, F>(scene, load<Int<F>>(light), position, normal, v.wo, lanes);
+    const auto at = emission_point<S, F>(scene, load<Int<F>>(light), position, normal, v.side.wo, lanes);
     Receiver<F> to{v.surface.position, v.shading.ns};
     to.normal = select<F>(v.material.bsdf.transmission > F(0.f), splat<F>(0.f), to.normal);
     to.normal = select<F>(v.material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), to.normal);
@@ -112,7 +135,7 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     const Mask<F> seen_by_camera = connectable && c.valid;
     if (!any(seen_by_camera)) return;
     const ViewedPoint<F> view =
-        view_point<S, F>(scene, context.settings.energy, v.surface, v.material, v.bsdf, c.to, v.wo, true, seen_by_camera);
+        view_point<S, F>(scene, context.settings.energy, v.surface, v.material, v.bsdf, c.to, v.side.wo, true, seen_by_camera);
     const F per_path = c.density * clamped_cosine<F>(v.shading.ng, c.to) * (1.f / scene.emission.paths);
     const Vec<F> value = v.beta * view.value.f_cos * (per_path / v.cosine);
     const F seen = view.pdf / v.cosine;
@@ -152,15 +175,15 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     F hit_ratio = v.hit_ratio, nee_ratio = bounce == 0 ? F(0.f) : v.nee_ratio;
     const Mask<F> dense = v.scatters && !s.delta;
     if (any(dense)) {
-        const ViewedPoint<F> view = view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.wo, true, dense);
+        const ViewedPoint<F> view =
+            view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.side.wo, true, dense);
         const F seen = view.pdf / v.cosine, forward = s.pdf / cosine;
         const F factor = seen / max(forward, F(1e-30f));
         beta = view.value.f_cos * (1.f / (v.cosine * max(forward, F(1e-30f))));
         hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
         nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
     }
-    const F tilt = cosine / v.cosine * delta_adjoint<S, F>(v.bsdf, v.material.bsdf.layers, v.shading.wo, s.wi, choice.x());
-    beta = select<F>(dense, beta, s.weight * tilt) * v.beta;
+    beta = select<F>(dense, beta, delta_light_weight<S, F>(v, s, cosine, choice.x())) * v.beta;
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
@@ -195,22 +218,9 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         const Hit<F> hit = load_hit<F>(scratch.hits, k);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        // Textures are filtered as the camera sees them.
-        const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
-        const float cone = camera_cone(scene.camera, settings);
-        const F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
-        const Surface<F> surface = surface_at<S, F>(scene, hit, met, footprint);
-        MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, met);
-        const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
-        Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
-        const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
-        const Mask<F> scatters = met && !material.unlit;
-        const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
-        const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
-        LightVertex<F> v{surface, material, shading, bsdf,     side.wo,  clamped_cosine<F>(shading.ng, side.wo),
-                         beta,    F(0.f),   F(0.f),  scatters, dispersed};
+        LightVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met);
         if (bounce == 0) {
-            v.scatters = v.scatters && !is_lambertian<S, F>(bsdf);
+            v.scatters = v.scatters && !is_lambertian<S, F>(v.bsdf);
             if (!any(v.scatters)) continue;
             alignas(64) float densities[width<F>]{}, hits[width<F>]{};
             for_each_lane(bits(v.scatters), [&](int i) {
@@ -219,7 +229,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
                 hits[i] = e.delta ? 0 : densities[i];
             });
             v.hit_ratio = load<F>(hits);
-            if (const Mask<F> lit = v.scatters && !is_delta_only<F>(bsdf); any(lit))
+            if (const Mask<F> lit = v.scatters && !is_delta_only<F>(v.bsdf); any(lit))
                 v.nee_ratio = select(lit, load<F>(densities) * nee_density<S, F>(scene, columns.emitted, k, v, lit), F(0.f));
         } else {
             v.hit_ratio = load<F>(columns.hit_ratio[1 - queue] + k);

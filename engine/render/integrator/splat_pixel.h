@@ -58,6 +58,21 @@ inline void add_splats(const KernelContext& context, int bounce, TileScratch& sc
     }
 }
 
+// Appends an emitted path to the queue.
+inline void append_emitted(const EmittedPath& e, const Vec3& beta, uint32_t key, uint32_t index, int32_t slot, PathQueue& q) {
+    const int i = q.size++;
+    q.ox[i] = e.origin.x, q.oy[i] = e.origin.y, q.oz[i] = e.origin.z;
+    q.dx[i] = e.direction.x, q.dy[i] = e.direction.y, q.dz[i] = e.direction.z;
+    q.beta_r[i] = beta.x, q.beta_g[i] = beta.y, q.beta_b[i] = beta.z;
+    q.pdf[i] = q.nx[i] = q.ny[i] = q.nz[i] = q.cone[i] = q.light_ratio[i] = q.emission_ratio[i] = 0;
+    q.key[i] = key;
+    q.index[i] = index;
+    q.slot[i] = slot;
+    q.part[i] = -1;
+    q.dispersed[i] = 0;
+    q.chain[i] = 0;
+}
+
 // Fills the queue with the emitted paths. Their throughput begins as the colour of the flux, at luminance 1, for Russian roulette.
 inline void begin_light_paths(const LightPathColumns& columns, PathQueue& q) {
     q.size = 0;
@@ -65,17 +80,7 @@ inline void begin_light_paths(const LightPathColumns& columns, PathQueue& q) {
         const EmittedPath& e = columns.emitted[k];
         const float amount = luminance(e.flux);
         const Vec3 color = amount > 0 && e.density > 0 ? e.flux * (1 / amount) : Vec3{0, 0, 0};
-        const int i = q.size++;
-        q.ox[i] = e.origin.x, q.oy[i] = e.origin.y, q.oz[i] = e.origin.z;
-        q.dx[i] = e.direction.x, q.dy[i] = e.direction.y, q.dz[i] = e.direction.z;
-        q.beta_r[i] = color.x, q.beta_g[i] = color.y, q.beta_b[i] = color.z;
-        q.pdf[i] = q.nx[i] = q.ny[i] = q.nz[i] = q.cone[i] = q.light_ratio[i] = q.emission_ratio[i] = 0;
-        q.key[i] = columns.key;
-        q.index[i] = e.index;
-        q.slot[i] = int32_t(k);
-        q.part[i] = -1;
-        q.dispersed[i] = 0;
-        q.chain[i] = 0;
+        append_emitted(e, color, columns.key, e.index, int32_t(k), q);
     }
 }
 

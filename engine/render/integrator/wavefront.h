@@ -5,7 +5,7 @@
 #include "render/integrator/blended_background.h"
 #include "render/integrator/estimator.h"
 #include "render/integrator/group_sums.h"
-#include "render/integrator/manifold_sampling.h"
+#include "render/integrator/manifold/light_vertices.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/path_reuse.h"
 #include "render/integrator/strategy_sums.h"
@@ -147,6 +147,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
                                                                     const PathQueue& now, PathQueue& next, int bounce) {
     next.size = 0;
     scratch.shadows.size = 0;
+    if (scratch.light_vertices) scratch.light_vertices->connections.size = 0;
     if (samples_manifolds<S>(*context.scene) && !scratch.manifolds) scratch.manifolds = std::make_unique<ManifoldColumns>();
     const bool blends = context.scene->blends;
     SampledTimer light_timer;
@@ -173,7 +174,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             if (samples_manifolds<S>(*context.scene)) {
                 ManifoldHitColumns& hits = scratch.manifolds->hits;
                 take_chain_hits<S, F>(*context.scene, hits, path, load_hit<F>(scratch.hits, k), bounce, active, step);
-                note_chain_starts<F>(hits, path, step);
+                note_chain_starts<F>(*context.scene, hits, path, step);
             }
         add_emission<S, F>(context, scratch, now.slot + k, k, path, bounce, active, step);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);
@@ -192,7 +193,11 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
             append<F>(scratch.shadows, step, path.slot, step.connects);
         }
         if constexpr (S.has(Feature::light_paths))
-            if (samples_manifolds<S>(*context.scene)) add_receivers<S, F>(context, scratch, path, step, bounce, active);
+            if (samples_manifolds<S>(*context.scene)) {
+                add_receivers<S, F>(context, scratch, path, step, bounce, active);
+                if (connects_light_vertices<S>(*context.scene))
+                    queue_connections<S, F>(context, *scratch.light_vertices, path, step, bounce, active);
+            }
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, step.next.part, bits(step.continues));
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, step.next.dispersed, bits(step.continues));
         if (scratch.strategies) note_guided<F>(*scratch.strategies, now.slot + k, step);
@@ -225,6 +230,12 @@ template <Features S, class F> void connect_paths(const KernelContext& context, 
         if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
 }
 
+// Adds the light of chains at the vertices of a bounce. Overwrites `rays`.
+template <Features S, class F> void add_chains(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
+    sample_manifolds<S, F>(context, scratch, rays, bounce);
+    if (connects_light_vertices<S>(*context.scene)) add_connections<F>(context, scratch, bounce);
+}
+
 // Stores the radiance so far as the result after at most `bounce` scatterings: emission at hits, and NEE of one scattering less.
 inline void record_bounce(TileScratch& scratch, int paths, int bounce) {
     BounceColumns& columns = *scratch.bounces;
@@ -238,6 +249,8 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
     generate_paths<S, F>(context, job, scratch);
     timer.end(Stage::generate);
     if (scratch.bounces) scratch.bounces->begin();
+    if constexpr (S.has(Feature::light_paths))
+        if (connects_light_vertices<S>(*context.scene)) trace_light_vertices<S, F>(context, scratch);
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
     bool unshared_is_stashed = false;
@@ -268,7 +281,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         timer.end(Stage::shade, light_ticks);
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         if constexpr (S.has(Feature::light_paths))
-            if (samples_manifolds<S>(*context.scene)) sample_manifolds<S, F>(context, scratch, *now, bounce);
+            if (samples_manifolds<S>(*context.scene)) add_chains<S, F>(context, scratch, *now, bounce);
         timer.end(Stage::shadow);
         if (scratch.strategies) scratch.strategies->next_bounce();
         if (scratch.guiding) scratch.guiding->note_arrived(radiance_of);

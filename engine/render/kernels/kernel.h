@@ -11,8 +11,10 @@
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/light_path_columns.h"
+#include "render/kernels/light_vertex_columns.h"
 #include "render/kernels/manifold_columns.h"
 #include "render/kernels/reuse_columns.h"
+#include "render/kernels/shadow_queue.h"
 #include "render/kernels/strategy_columns.h"
 #include "render/lights/continuation_trial.h"
 #include "render/lights/escape_trial.h"
@@ -55,15 +57,6 @@ struct HitColumns {
     Column<float> t, u, v;
     Column<int32_t> geometry, instance, triangle;
 };
-struct ShadowQueue {
-    int size = 0;
-    Column<float> ox, oy, oz, dx, dy, dz, distance, r, g, b;
-    Column<int32_t> slot;
-    Column<uint32_t> random; // for blended surfaces; written only if there are some
-    Column<int32_t> group;   // light group; written only with a light mix
-    Column<uint32_t> mask;   // ray mask; written only if lights are linked
-    Column<int32_t> trial;   // index of TileScratch::trials; written only if they are recorded
-};
 struct FirstHitColumns {
     Column<float> albedo_r, albedo_g, albedo_b, normal_x, normal_y, normal_z, depth;
     Column<int32_t> object, material; // material: index into the material table, -1 on a miss
@@ -91,23 +84,24 @@ struct TileScratch {
     Column<uint32_t> random;
     Column<uint8_t> blocked;
 
-    Column<double> r, g, b;                            // radiance; single precision would lose a long path's last terms
-    std::unique_ptr<FirstHitColumns> first;            // null: not needed
-    std::unique_ptr<BounceColumns> bounces;            // null: not needed
-    std::unique_ptr<GroupColumns> groups;              // null: no light mix
-    std::unique_ptr<StrategyColumns> strategies;       // null: not needed
-    std::unique_ptr<ReuseColumns> reuse;               // allocated by the first kernel with path reuse
-    std::unique_ptr<RouletteColumns> roulette;         // null: not needed
-    std::unique_ptr<PaneColumns> panes;                // allocated by the first kernel with panes
-    std::unique_ptr<Column<float>> background_share;   // by path of the queue; allocated by the first kernel that needs it
-    std::unique_ptr<std::vector<ShadowTrial>> trials;  // of the tile's shadow rays, accumulated; null: not recorded
-    std::unique_ptr<EscapeTrials> escapes;             // null: not recorded
-    std::unique_ptr<GuidingTrials> guiding;            // null: not recorded; not with path reuse
-    std::unique_ptr<ContinuationTrials> continuations; // null: not recorded; not with path reuse
-    std::unique_ptr<Column<float>> importance;         // of the slot's pixel (shading/learned_adjoint.h); null until a kernel needs it
-    std::unique_ptr<PhotonTrials> photons;             // null: paths begin at the camera; else one for each path of the tile
-    std::unique_ptr<LightPathColumns> light_paths;     // null: no light paths
-    std::unique_ptr<ManifoldColumns> manifolds;        // allocated by the first kernel with manifold sampling
+    Column<double> r, g, b;                             // radiance; single precision would lose a long path's last terms
+    std::unique_ptr<FirstHitColumns> first;             // null: not needed
+    std::unique_ptr<BounceColumns> bounces;             // null: not needed
+    std::unique_ptr<GroupColumns> groups;               // null: no light mix
+    std::unique_ptr<StrategyColumns> strategies;        // null: not needed
+    std::unique_ptr<ReuseColumns> reuse;                // allocated by the first kernel with path reuse
+    std::unique_ptr<RouletteColumns> roulette;          // null: not needed
+    std::unique_ptr<PaneColumns> panes;                 // allocated by the first kernel with panes
+    std::unique_ptr<Column<float>> background_share;    // by path of the queue; allocated by the first kernel that needs it
+    std::unique_ptr<std::vector<ShadowTrial>> trials;   // of the tile's shadow rays, accumulated; null: not recorded
+    std::unique_ptr<EscapeTrials> escapes;              // null: not recorded
+    std::unique_ptr<GuidingTrials> guiding;             // null: not recorded; not with path reuse
+    std::unique_ptr<ContinuationTrials> continuations;  // null: not recorded; not with path reuse
+    std::unique_ptr<Column<float>> importance;          // of the slot's pixel (shading/learned_adjoint.h); null until a kernel needs it
+    std::unique_ptr<PhotonTrials> photons;              // null: paths begin at the camera; else one for each path of the tile
+    std::unique_ptr<LightPathColumns> light_paths;      // null: no light paths
+    std::unique_ptr<ManifoldColumns> manifolds;         // allocated by the first kernel with manifold sampling
+    std::unique_ptr<LightVertexColumns> light_vertices; // allocated by the first kernel with light vertices
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };

@@ -23,6 +23,18 @@ struct EmittedPath {
     bool infinite = false, delta = false;     // delta: no ray can hit the light
 };
 
+struct SceneTables;
+
+// Emits light paths for kernels: LightPathEmission.
+class PathEmitter {
+public:
+    virtual ~PathEmitter() = default;
+    // Replaces `emitted` by the paths of the samplers keys[k], indices[k], k < count. EmittedPath::index is k; paths that do not exist are
+    // left out. Sorted by place: rays of a packet then meet the same triangles.
+    virtual void emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
+                            std::vector<EmittedPath>& emitted) const = 0;
+};
+
 struct LightPathColumns {
     std::vector<EmittedPath> emitted; // by slot; at most tile_capacity
     uint32_t key = 0;                 // of the sampler

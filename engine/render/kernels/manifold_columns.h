@@ -1,4 +1,4 @@
-// The walks of manifold sampling in a tile (render/integrator/manifold_sampling.h).
+// The walks of manifold sampling in a tile (render/integrator/manifold/manifold_sampling.h).
 #pragma once
 
 #include "render/kernels/column.h"
@@ -12,11 +12,11 @@ struct Columns3 {
     Column<float> x, y, z;
 };
 
-// Paths of the camera that find the same light by chance (render/integrator/manifold_hits.h).
+// Paths of the camera that find the same light by chance (render/integrator/manifold/manifold_hits.h).
 struct ManifoldHitColumns {
     // By slot: the last diffuse vertex, the direction in which the path has left it, and Path::light_ratio there.
     Columns3 origin, ns, direction;
-    Column<float> start_ratio;
+    Column<float> start_ratio, start_arrival; // start_arrival: as ManifoldColumns::arrival
     // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
     int size = 0;
     Column<int32_t> slot, light, chain;
@@ -29,6 +29,7 @@ struct ManifoldColumns {
     int size = 0;
     // The receiver: origin of its rays, normals, throughput times reflectance over pi.
     Columns3 origin, ns, ng, reflected;
+    Column<float> arrival; // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
     Column<int32_t> slot;
     // The light: point (at infinity: direction), normal, radiance, density with which the point is sampled (1/m^2; at infinity 1/sr),
     // record; distance from the point below which a walk has converged.
@@ -55,6 +56,9 @@ struct ManifoldColumns {
     Column<int32_t> root_chain, trials;
 
     Column<int32_t> live;
+
+    // True while the chains of light vertices are traced again: their densities are kept instead of light.
+    bool weighs_light_vertices = false;
 
     // For the pilot. Accumulated by slot: second moment of the light that was found, and of the same light if paths of the camera found it;
     // the latter over the luminance found, by receiver.

@@ -34,7 +34,7 @@ ReceiverGrid grid_of(const std::vector<Vec3>& positions) {
     return grid;
 }
 
-// A ray that meets two suns at once would end two chains (integrator/manifold_hits.h).
+// A ray that meets two suns at once would end two chains (integrator/manifold/manifold_hits.h).
 bool overlaps_another_sun(const LightTables& lights, const LightRecord& sun) {
     const auto chord = [](const LightRecord& r) { return std::sqrt(2 * r.cone_height); };
     for (int i = 0; i < lights.sun_count; ++i) {

@@ -9,6 +9,7 @@ namespace blush {
 struct CausticOptions {
     std::optional<float> light_path_share; // light paths for each camera path
     std::optional<bool> manifold_sampling;
+    std::optional<bool> light_vertices; // beside manifold sampling
 };
 
 } // namespace blush

@@ -16,8 +16,8 @@ namespace blush {
 LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
                                  const CausticOptions& options)
     : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
-      light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options.manifold_sampling),
-      reuse_(settings, scene), adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
+      light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options), reuse_(settings, scene),
+      adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
 
 void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
     if (!guiding_.needs_pilot()) return;
@@ -60,7 +60,7 @@ bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kerne
         const Kernel& chains = kernel_like(own, own.features.with(Feature::light_paths));
         if (!traced) traced = trace_caustic_photons(with, own, others...);
         if (!traced) return std::nullopt;
-        return measure_manifolds(with, *traced, scene.guides.casters, chains, light_paths_.pays() ? chains : own, others...);
+        return measure_manifolds(with, *traced, scene_sphere_, scene.guides.casters, chains, light_paths_.pays() ? chains : own, others...);
     };
     const auto learn_roulette = [&](const KernelContext& with, auto&&... others) -> std::optional<AdjointPilot> {
         if (with.settings.roulette.rule == Roulette::Rule::automatic) {

@@ -85,8 +85,8 @@ public:
     // `kept`: samples are rendered with kept_tables().
     FeatureReport report(bool kept = false) const {
         return {visibility_.report(),  portals_.report(),   guiding_.report(kept ? kept_field() : nullptr),
-                light_paths_.report(), manifolds_.report(), reuse_.report(),
-                adjoint_.report()};
+                light_paths_.report(), manifolds_.report(), manifolds_.vertex_report(),
+                reuse_.report(),       adjoint_.report()};
     }
 
 private:

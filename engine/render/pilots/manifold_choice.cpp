@@ -19,8 +19,10 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
 
 } // namespace
 
-ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<bool> used)
-    : useless_(why_no_manifolds(settings, scene, film)), used_(used), casters_(scene.tables().guides.casters) {}
+ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
+                               const CausticOptions& options)
+    : useless_(why_no_manifolds(settings, scene, film)), used_(options.manifold_sampling), uses_vertices_(options.light_vertices),
+      casters_(scene.tables().guides.casters) {}
 
 void ManifoldChoice::decide(ManifoldPilot pilot) {
     if (!useless_) pilot_ = std::move(pilot);
@@ -29,6 +31,7 @@ void ManifoldChoice::decide(ManifoldPilot pilot) {
 SceneTables ManifoldChoice::tables(SceneTables scene, int64_t sample) const {
     if (sample == 0 || !pays()) return scene;
     scene.manifolds = pilot_->seeds.tables(casters_);
+    if (uses_light_vertices()) scene.light_vertices = pilot_->light_vertices();
     scene.guides = {};
     return scene;
 }
@@ -48,6 +51,20 @@ FeatureUse ManifoldChoice::report() const {
                               pilot_->figures->cost(), pilot_->figures->typical * pilot_->figures->work);
     if (use.used) use.bytes = int64_t(pilot_->seeds.memory_bytes());
     if (pilot_) use.pilot = pilot_->figures;
+    return use;
+}
+
+FeatureUse ManifoldChoice::vertex_report() const {
+    FeatureUse use{.part = "kernel", .name = "light vertices", .used = uses_light_vertices(), .why = {}};
+    if (!pays())
+        use.why = "manifold sampling is not used";
+    else if (pilot_->usual_ratio == 0)
+        use.why = "pilot: no light path has reached a diffuse surface by mirrors and smooth glass alone";
+    else
+        use.why = fmt::format("pilot: variance x work {} {:.2f} of that of manifold sampling alone", use.used ? "is" : "would be",
+                              pilot_->vertex_figures->cost());
+    if (use.used) use.bytes = int64_t(pilot_->emission.memory_bytes());
+    if (pilot_ && pilot_->vertex_figures) use.pilot = pilot_->vertex_figures;
     return use;
 }
 

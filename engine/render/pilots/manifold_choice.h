@@ -4,6 +4,7 @@
 #include "render/compile/feature_report.h"
 #include "render/compile/scene_tables.h"
 #include "render/film/film_size.h"
+#include "render/pilots/caustic_options.h"
 #include "render/pilots/manifold_pilot.h"
 #include "scene/render_settings.h"
 
@@ -18,8 +19,8 @@ class RenderScene;
 class ManifoldChoice {
 public:
     ManifoldChoice() = default;
-    // For a new image of a compiled scene. `film`: its planes. `used`: overrides the pilot (RendererOptions).
-    ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<bool> used);
+    // For a new image of a compiled scene. `film`: its planes. `options`: override the pilot (RendererOptions).
+    ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, const CausticOptions& options);
 
     // True if a pilot must decide before any sample but the first.
     bool needs_pilot() const { return !useless_ && !pilot_; }
@@ -30,23 +31,31 @@ public:
         if (!pilot_ || pilot_->seeds.empty()) return false;
         return used_ ? *used_ : pilot_->figures && !pilot_->endless && pays_by(*pilot_->figures);
     }
+    // True if samples are connected to light vertices.
+    bool uses_light_vertices() const {
+        if (!pays() || !pilot_->vertex_figures) return false;
+        return uses_vertices_ ? *uses_vertices_ : pilot_->vertex_figures->cost() < largest_vertex_cost;
+    }
     bool gains_much() const { return pays() && (used_ || pilot_->figures->cost() < 0.5); }
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
 
     FeatureUse report() const;
+    FeatureUse vertex_report() const;
 
 private:
     static constexpr double largest_cost = 0.75; // a pilot errs, walks take more time than their rays, and the kernel is slower
     // Of a typical tile: elsewhere most of the variance without is that of paths so rare that no image of usual length has any.
     static constexpr double largest_typical_cost = 2.0 / 3;
 
+    static constexpr double largest_vertex_cost = 0.9;
+
     static bool pays_by(const PilotFigures& figures) {
         return figures.cost() < largest_cost && figures.typical * figures.work < largest_typical_cost;
     }
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides
-    std::optional<bool> used_;
+    std::optional<bool> used_, uses_vertices_;
     CausticCasterTables casters_;
     std::optional<ManifoldPilot> pilot_;
 };

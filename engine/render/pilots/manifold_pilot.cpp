@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace blush {
@@ -13,13 +14,36 @@ namespace {
 
 constexpr uint32_t manifold_seed = 0x5eed3a1f; // any; differs from those of images and other pilots
 constexpr int manifold_pixels = 1 << 12;       // of the image that is measured
+// LightVertexTables::walk_share: of 1, 0.3, 0.1 and 0.03 the least error times time in the pool of docs/dev/performance.md.
+constexpr float walk_share = 0.1f;
 // Of the receivers with a solution: more must not be cut off at the pilot's limit of trials.
 constexpr double largest_cut_share = 2e-3;
 
 struct MeasuredTile {
     VariantPair pair;
+    Vec3d mean;
     int64_t solutions = 0, cut = 0;
 };
+
+// A tile with light vertices, and the logarithms of their ratios (LightVertexColumns::ratio).
+struct VertexTile {
+    VariantPair pair;
+    double log_ratio = 0;
+    int64_t ratios = 0;
+};
+VertexTile measure_ratios(const KernelContext& context, const Kernel& kernel, const TileJob& job, TileScratch& tile) {
+    KernelContext vertices_alone = context;
+    vertices_alone.settings.max_bounces = 0;
+    render_variant(vertices_alone, kernel, job, tile);
+    const LightVertexColumns& v = *tile.light_vertices;
+    VertexTile m;
+    for (int slot = 0; slot < job.paths(); ++slot) {
+        if (v.chain[slot] == 0 || !(v.ratio[slot] > 0)) continue;
+        m.log_ratio += std::log(double(v.ratio[slot]));
+        ++m.ratios;
+    }
+    return m;
+}
 
 // Of the tile without manifold sampling: with it, but for the light of its solutions, whose moments `columns` has by slot.
 VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns, int slots, const Vec3d& mean) {
@@ -39,43 +63,101 @@ VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns
     return sums;
 }
 
+// What the tiles are rendered with.
+struct TileRenderer {
+    const Kernel& kernel;
+    const Workers& workers;
+    std::vector<std::unique_ptr<TileScratch>>& scratch;
+    const std::function<bool()>& wanted;
+
+    // Calls render(tile number, scratch); false if `wanted` returned false.
+    template <class Render> bool for_each(size_t tiles, const Render& render) const {
+        return workers.for_each(int64_t(tiles), wanted, [&](int64_t i, unsigned worker) {
+            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+            render(size_t(i), *scratch[worker]);
+        });
+    }
+};
+
+// Renders the tiles of manifold sampling with light vertices, too. `context`: with manifold sampling. False if `wanted` returned false.
+bool measure_light_vertices(KernelContext context, const PilotImage& image, std::span<const MeasuredTile> without,
+                            const TileRenderer& renderer, ManifoldPilot& pilot) {
+    SceneTables tables = *context.scene;
+    tables.light_vertices = pilot.light_vertices();
+    if (tables.light_vertices.empty()) return true;
+    context.scene = &tables;
+    std::vector<VertexTile> measured(image.tiles.size());
+    if (!renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
+            measured[i] = measure_ratios(context, renderer.kernel, image.tiles[i], tile);
+        }))
+        return false;
+    double log_ratio = 0;
+    int64_t ratios = 0;
+    for (const VertexTile& m : measured) {
+        log_ratio += m.log_ratio;
+        ratios += m.ratios;
+    }
+    if (ratios == 0) return true;
+    pilot.usual_ratio = float(std::exp(log_ratio / double(ratios)));
+    tables.light_vertices = pilot.light_vertices();
+    const double ray_cost = ray_cost_of(context);
+    if (!renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
+            const Variant with = render_variant(context, renderer.kernel, image.tiles[i], tile);
+            VariantPair& pair = measured[i].pair;
+            pair.without = without[i].pair.with;
+            pair.with = sums_of(with, without[i].mean);
+            pair.with.work = path_work(with, ray_cost);
+        }))
+        return false;
+    std::vector<VariantPair> pairs;
+    for (const VertexTile& m : measured) pairs.push_back(m.pair);
+    pilot.vertex_figures = figures_of(pairs);
+    return true;
+}
+
 } // namespace
 
-std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CausticCasterTables& casters,
-                                               const Kernel& kernel, const Kernel& without, const Workers& workers,
-                                               std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
+LightVertexTables ManifoldPilot::light_vertices() const {
+    if (emission.empty()) return {};
+    return {emission.tables(1), &emission, usual_ratio, walk_share};
+}
+
+std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,
+                                               const CausticCasterTables& casters, const Kernel& kernel, const Kernel& without,
+                                               const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
+                                               const std::function<bool()>& wanted) {
     auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, wanted);
     if (!seeds) return std::nullopt;
-    ManifoldPilot pilot{*std::move(seeds), {}};
+    ManifoldPilot pilot{*std::move(seeds), {}, false, {}, 0, {}};
     if (pilot.seeds.empty()) return pilot;
+    SceneTables tables = *context.scene;
+    tables.manifolds = pilot.seeds.tables(casters);
+    pilot.emission = LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
     const PilotImage image = pilot_image(context.settings, manifold_pixels);
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
     context.settings.width = float(image.width);
     context.settings.height = float(image.height);
     context.seed = manifold_seed;
-    SceneTables tables = *context.scene;
-    tables.manifolds = pilot.seeds.tables(casters);
-    tables.manifolds.guides_without = tables.guides;
-    tables.guides = {};
     KernelContext with = context;
     with.scene = &tables;
+    tables.manifolds.guides_without = tables.guides;
+    tables.guides = {};
     const double ray_cost = ray_cost_of(context);
+    const TileRenderer renderer{kernel, workers, scratch, wanted};
     std::vector<MeasuredTile> measured(image.tiles.size());
-    const bool done = workers.for_each(int64_t(image.tiles.size()), wanted, [&](int64_t i, unsigned worker) {
-        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-        TileScratch& tile = *scratch[worker];
-        const TileJob& job = image.tiles[size_t(i)];
-        MeasuredTile& m = measured[size_t(i)];
+    const bool done = renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
+        const TileJob& job = image.tiles[i];
+        MeasuredTile& m = measured[i];
         tile.manifolds = std::make_unique<ManifoldColumns>();
         tile.manifolds->begin_measuring(job.paths());
         const Variant by_manifolds = render_variant(with, kernel, job, tile);
         const auto columns = std::exchange(tile.manifolds, nullptr);
         const Variant other = render_variant(context, without, job, tile);
         const std::array<const Variant*, 1> known{&by_manifolds};
-        const Vec3d mean = mean_of(known);
-        m.pair.with = sums_of(by_manifolds, mean);
-        m.pair.without = sums_without(m.pair.with, *columns, job.paths(), mean);
+        m.mean = mean_of(known);
+        m.pair.with = sums_of(by_manifolds, m.mean);
+        m.pair.without = sums_without(m.pair.with, *columns, job.paths(), m.mean);
         m.pair.with.work = path_work(by_manifolds, ray_cost);
         m.pair.without.work = path_work(other, ray_cost);
         m.solutions = columns->solutions;
@@ -92,6 +174,7 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     if (solutions == 0) return pilot;
     pilot.figures = figures_of(pairs);
     pilot.endless = double(cut) > largest_cut_share * double(solutions);
+    if (!measure_light_vertices(with, image, measured, renderer, pilot)) return std::nullopt;
     return pilot;
 }
 

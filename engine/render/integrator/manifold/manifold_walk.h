@@ -1,8 +1,8 @@
 // The walks of manifold sampling (manifold_sampling.h): where they begin, and Newton's step at the end of their chain.
 #pragma once
 
-#include "render/integrator/manifold_hits.h"
-#include "render/integrator/specular_chain.h"
+#include "render/integrator/manifold/manifold_hits.h"
+#include "render/integrator/manifold/specular_chain.h"
 
 namespace blush::inline BLUSH_ISA {
 

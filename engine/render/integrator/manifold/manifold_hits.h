@@ -8,7 +8,7 @@
 // 1 / (P + (1 - P) c). Of paths the share 1 - k counts at once; others run the same trials, and count if these end by c.
 #pragma once
 
-#include "render/integrator/manifold_receivers.h"
+#include "render/integrator/manifold/manifold_receivers.h"
 #include "render/integrator/surface.h"
 
 namespace blush::inline BLUSH_ISA {
@@ -24,8 +24,9 @@ template <class F> HitShare<F> share_of_hits(const F& path_density, const F& den
 }
 
 // Keeps where the chains of paths that go on from a diffuse vertex begin.
-template <class F> void note_chain_starts(ManifoldHitColumns& c, const Path<F>& path, const Step<F>& step) {
+template <class F> void note_chain_starts(const SceneTables& scene, ManifoldHitColumns& c, const Path<F>& path, const Step<F>& step) {
     const Mask<F> begins = step.continues && as_mask(step.next.chain == begun_chain<F>());
+    const F arrival = arrival_density<F>(scene, path, step.reuse_vertex);
     for_each_lane(bits(begins), [&](int i) {
         const int slot = lane(path.slot, i);
         const auto keep = [&](Columns3& column, const Vec<F>& v) {
@@ -37,6 +38,7 @@ template <class F> void note_chain_starts(ManifoldHitColumns& c, const Path<F>& 
         keep(c.direction, step.next.ray.direction);
         keep(c.ns, step.reuse_vertex.ns);
         c.start_ratio[slot] = lane(path.light_ratio, i);
+        c.start_arrival[slot] = lane(arrival, i);
     });
 }
 
@@ -110,10 +112,10 @@ template <Features S, class F> void add_hit_receivers(const SceneTables& scene, 
         const GroupSeeds<F> seeds = seeds_of_group<F>(t, region_at<F>(t, origin, ns, active), group, active);
         const F density = seeds.probability * p.density / to_float(gather_field(t.groups, &ManifoldGroup::lights, group));
         const int first = c.size;
-        append_receivers<F>(
-            scene, c,
-            {origin, ns, ns, splat<F>(0.f), p, slot, seeds, density, load<UInt<F>>(hits.random + k), gather(hits.start_ratio, slot)},
-            active);
+        append_receivers<F>(scene, c,
+                            {origin, ns, ns, splat<F>(0.f), p, slot, seeds, density, load<UInt<F>>(hits.random + k),
+                             gather(hits.start_ratio, slot), gather(hits.start_arrival, slot)},
+                            active);
         const Vec<F> direction = load3<F>(hits.direction, slot), emitted = load_all(hits.emitted, k);
         const auto put_all = [&](Columns3& column, const Vec<F>& v) {
             store(column.x + first, v.x);

@@ -13,13 +13,41 @@
 // vertex they can connect to the camera.
 #pragma once
 
-#include "render/integrator/manifold_walk.h"
+#include "render/integrator/manifold/manifold_walk.h"
 #include "render/integrator/path_queues.h"
 
 namespace blush::inline BLUSH_ISA {
 
 constexpr int max_walk_iterations = 20;
 constexpr float least_scale = 1.f / 16; // of a Newton step
+
+// Density of emission of a solution (emission_density).
+template <Features S, class F> F solution_emission(const SceneTables& scene, const EmissionTables& emission, const ManifoldColumns& c,
+                                                   const Walk<F>& w, const Mask<F>& active) {
+    const Mask<F> infinite = as_mask((gather(c.kind, w.index) & int32_t(receiver_infinite)) != 0);
+    const Vec<F> position = select<F>(infinite, w.ray.position, load3<F>(c.target, w.index));
+    const auto point =
+        emission_point<S, F>(scene, gather(c.light, w.index), position, load3<F>(c.target_normal, w.index), w.ray.direction, active);
+    return emission_density<F>(emission, point, active);
+}
+
+// Density of a solution over that of light paths to its light vertex (light_vertices.h): m^2. `pdf`: of the direction, with the cosine at
+// the vertex.
+template <Features S, class F> [[gnu::noinline]] F over_light_vertices(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
+                                                                       const F& pdf, const F& cosine, const Mask<F>& active) {
+    const F by_light = solution_emission<S, F>(scene, scene.light_vertices.emission, c, w, active) * cosine;
+    return min(F(pdf / max(by_light, F(1e-30f))), F(1e30f));
+}
+// MIS weight of manifold sampling beside light vertices, and of the hits that share its light.
+template <Features S, class F> F beside_light_vertices(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w, const F& pdf,
+                                                       const F& cosine, const Mask<F>& active) {
+    if (scene.light_vertices.empty()) return F(1.f);
+    const F arrival = gather(c.arrival, w.index);
+    const Mask<F> shared = active && arrival > F(0.f);
+    if (!any(shared)) return F(1.f);
+    const F ratio = over_light_vertices<S, F>(scene, c, w, pdf, cosine, shared);
+    return select(shared, 1.f - light_vertex_weight<F>(scene, arrival, ratio), F(1.f));
+}
 
 // For the pilot: density with which paths of the camera and light paths together sample the direction of a solution; the probabilities of
 // the chain's events are left out, which are near 1 or weight little light.
@@ -29,11 +57,25 @@ template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTa
     const auto guide = direction_guide_at<F>(guides, load3<F>(c.origin, w.index), load3<F>(c.ns, w.index), active);
     const F density = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
     if (scene.emission.empty()) return density;
-    const auto point = emission_point<S, F>(scene, gather(c.light, w.index), load3<F>(c.target, w.index),
-                                            load3<F>(c.target_normal, w.index), w.ray.direction, active);
     // Light paths leave the receiver, which is Lambertian, with the density 1 / pi (light_path_weights.h).
-    const F by_light = gather(c.light_ratio, w.index) * emission_density<F>(scene.emission, point, active) * (inv_pi * max(cosine, F(0.f)));
+    const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active);
+    const F by_light = gather(c.light_ratio, w.index) * emitted * (inv_pi * max(cosine, F(0.f)));
     return density + min(by_light, F(1e30f));
+}
+
+// Light that has come to the path of a slot through a chain.
+struct ChainLight {
+    int slot;
+    int32_t light; // record
+    double r, g, b;
+};
+// Adds it, but for its strategy. `scatterings`: those from the camera to the light.
+inline void add_chained(const KernelContext& context, TileScratch& scratch, const ChainLight& l, int scatterings) {
+    if (scratch.groups) scratch.groups->add(context.scene->groups.of_light[l.light], l.slot, l.r, l.g, l.b);
+    if (scratch.bounces) return add_chained_light(*scratch.bounces, scatterings, l.slot, l.r, l.g, l.b);
+    scratch.r[l.slot] += l.r;
+    scratch.g[l.slot] += l.g;
+    scratch.b[l.slot] += l.b;
 }
 
 // Adds the light of a solution to its path, whose vertex is that of `bounce`: the receiver, or the light that was hit.
@@ -48,16 +90,10 @@ inline void add_chain_light(const KernelContext& context, TileScratch& scratch, 
     }
     const double r = double(c.found.x[k]) * trials, g = double(c.found.y[k]) * trials, b = double(c.found.z[k]) * trials;
     const bool hit = c.kind[k] & receiver_hit;
-    if (scratch.groups) scratch.groups->add(context.scene->groups.of_light[c.light[k]], slot, r, g, b);
     if (scratch.strategies && hit) add_hit_by_strategy(*scratch.strategies, slot, r, g, b);
     if (scratch.strategies && !hit) add_by_strategy(*scratch.strategies, FoundBy::manifold, slot, r, g, b);
-    if (scratch.bounces) {
-        const int scatterings = hit ? bounce : bounce + 1 + (c.root_chain[k] >> chain_count_shift);
-        return add_chained_light(*scratch.bounces, scatterings, slot, r, g, b);
-    }
-    scratch.r[slot] += r;
-    scratch.g[slot] += g;
-    scratch.b[slot] += b;
+    const int scatterings = hit ? bounce : bounce + 1 + (c.root_chain[k] >> chain_count_shift);
+    add_chained(context, scratch, {slot, c.light[k], r, g, b}, scatterings);
 }
 
 // The same where trials have ended without finding the solution again.
@@ -152,8 +188,20 @@ void weigh_hits(const KernelContext& context, TileScratch& scratch, int bounce, 
     const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f));
     const F density = gather(c.density, w.index) * end.determinant / max(cos_at_light<F>(c, w), F(1e-20f));
     const F by_paths = cosine_hemisphere_pdf(cosine);
-    const HitShare<F> share = share_of_hits<F>(by_paths, density);
     const unsigned lanes = bits(retraced);
+    const Mask<F> solved = retraced && round.ends && end.valid;
+    if (c.weighs_light_vertices) {
+        LightVertexColumns& v = *scratch.light_vertices;
+        const Int<F> slot = gather(c.slot, w.index);
+        put<F>(v.ratio, slot, over_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved), bits(solved));
+        // Paths that meet the light keep all of it there.
+        put_int<F>(v.chain, slot, Int<F>(0), lanes & ~bits(solved));
+        round.alive = round.alive && !retraced;
+        return;
+    }
+    const HitShare<F> share = share_of_hits<F>(by_paths, density);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved);
+    put3<F>(c.found, w.index, load3<F>(c.found, w.index) * beside, lanes);
     if (c.measures) {
         const F without = density_without<S, F>(*context.scene, c, w, cosine, retraced);
         put<F>(c.base, w.index, luminance(load3<F>(c.found, w.index)) * by_paths / max(without, F(1e-20f)), lanes);
@@ -187,7 +235,8 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     const Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && short_enough;
     const unsigned lanes = bits(carries);
     put3<F>(c.root, w.index, w.direction, lanes);
-    put3<F>(c.found, w.index, found * share.kept, lanes);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, cosine, carries);
+    put3<F>(c.found, w.index, found * (share.kept * beside), lanes);
     put<F>(c.same, w.index, end.same, lanes);
     put<F>(c.coin, w.index, share.coin, lanes);
     put_int<F>(c.root_chain, w.index, w.chain, lanes);
@@ -310,31 +359,40 @@ template <Features S, class F> void run_walks(const KernelContext& context, Tile
     }
 }
 
-// Adds the light of chains: that which reaches the queued receivers, then that of the hits. Overwrites `rays`.
-template <Features S, class F> void sample_manifolds(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
+// Runs the walks of the queued receivers, as begin(walk, lanes) starts them. Overwrites `rays`.
+template <Features S, class F, class Begin>
+void run_receivers(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce, const Begin& begin) {
     ManifoldColumns& c = *scratch.manifolds;
-    const auto run = [&](const auto& begin) {
-        for (int k = 0; k < c.size; k += width<F>) {
-            const Mask<F> active = as_mask(iota<F>() + k < c.size);
-            Walk<F> w = load_walk<F>(c, select(active, Int<F>(iota<F>() + k), Int<F>(0)));
-            w.trials = Int<F>(0);
-            begin(w, active);
-            store_walk<F>(c, w, bits(active));
-            store(c.live + k, w.index);
-        }
-        run_walks<S, F>(context, scratch, rays, bounce, c.size);
-        c.size = 0;
-    };
-    run([&](Walk<F>& w, const Mask<F>& active) { begin_walks<F>(*context.scene, c, w, active, Mask<F>(false)); });
-    if (c.hits.size == 0) return;
+    for (int k = 0; k < c.size; k += width<F>) {
+        const Mask<F> active = as_mask(iota<F>() + k < c.size);
+        Walk<F> w = load_walk<F>(c, select(active, Int<F>(iota<F>() + k), Int<F>(0)));
+        w.trials = Int<F>(0);
+        begin(w, active);
+        store_walk<F>(c, w, bits(active));
+        store(c.live + k, w.index);
+    }
+    run_walks<S, F>(context, scratch, rays, bounce, c.size);
+    c.size = 0;
+}
+// Traces the chains of the queued hits again.
+template <Features S, class F> void retrace_hits(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
+    ManifoldColumns& c = *scratch.manifolds;
     add_hit_receivers<S, F>(*context.scene, c);
     c.hits.size = 0;
-    run([&](Walk<F>& w, const Mask<F>& active) {
+    run_receivers<S, F>(context, scratch, rays, bounce, [&](Walk<F>& w, const Mask<F>& active) {
         w.direction = load3<F>(c.root, w.index);
         w.chain = gather(c.root_chain, w.index);
         w.state = Int<F>(retraces);
         begin_chain<F>(c, w, active);
     });
+}
+
+// Adds the light of chains: that which reaches the queued receivers, then that of the hits. Overwrites `rays`.
+template <Features S, class F> void sample_manifolds(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
+    ManifoldColumns& c = *scratch.manifolds;
+    run_receivers<S, F>(context, scratch, rays, bounce,
+                        [&](Walk<F>& w, const Mask<F>& active) { begin_walks<F>(*context.scene, c, w, active, Mask<F>(false)); });
+    if (c.hits.size > 0) retrace_hits<S, F>(context, scratch, rays, bounce);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -14,6 +14,8 @@ enum ReceiverFlag : int32_t { receiver_infinite = 1, receiver_two_sided = 2, rec
 
 // Share of samples that take their light from the seeds of the whole scene.
 constexpr float global_share = 0.1f;
+
+constexpr float least_receiver_survival = 1.f / 16;
 // Of the size of the light: the distance from its point at which a walk has converged.
 constexpr float converged_share = 2e-3f;
 
@@ -87,6 +89,25 @@ template <class F> Int<F> region_at(const ManifoldTables& t, const Vec<F>& origi
     return gather(t.regions_of_cell, select(active, guiding_cell<F>(t.grid, origin, ns), Int<F>(0)));
 }
 
+// Density with which the path has reached this vertex from a Lambertian surface before, where that connects to light vertices
+// (light_vertices.h): 1/m^2; else 0.
+template <class F> F arrival_density(const SceneTables& scene, const Path<F>& path, const ReuseVertex<F>& v) {
+    if (scene.light_vertices.empty()) return F(0.f);
+    const Vec<F> way = v.position - path.ray.origin;
+    const F density = path.pdf * abs(dot(v.ng, path.ray.direction)) / max(dot(way, way), F(1e-30f));
+    return select(as_mask(path.chain == begun_chain<F>()), density, F(0.f));
+}
+
+// MIS weight of light vertices beside manifold sampling. `arrival`: as above; `ratio`: LightVertexColumns::ratio.
+template <class F> F light_vertex_weight(const SceneTables& scene, const F& arrival, const F& ratio) {
+    return 1.f / (1.f + arrival * ratio * scene.light_vertices.walk_share);
+}
+// Probability that walks begin at a vertex: light vertices find most of the light of those with a low density.
+template <class F> F receiver_survival(const SceneTables& scene, const F& arrival) {
+    const F odds = arrival * (scene.light_vertices.usual_ratio * scene.light_vertices.walk_share);
+    return select(arrival > F(0.f), min(max(odds, F(least_receiver_survival)), F(1.f)), F(1.f));
+}
+
 // A receiver and its point of a light.
 template <class F> struct ChainReceiver {
     Vec<F> origin, ns, ng, reflected;
@@ -95,7 +116,7 @@ template <class F> struct ChainReceiver {
     GroupSeeds<F> seeds;
     F density; // of the point
     UInt<F> random;
-    F light_ratio;
+    F light_ratio, arrival;
 };
 // Queues the receivers of `lanes`.
 template <class F>
@@ -117,6 +138,7 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     put_all(c.reflected, receiver.reflected);
     put_all(c.emission, p.emission);
     compress(c.density + k, receiver.density, lanes);
+    compress(c.arrival + k, receiver.arrival, lanes);
     compress(c.clearcoat + k, p.clearcoat, lanes);
     put_all(c.target, p.position);
     put_all(c.target_normal, p.normal);
@@ -146,27 +168,30 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
 
     UInt<F> random = pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x68e31da4u))));
     const Vec<F> origin = offset_origin(v.position, v.ng * v.clearance);
-    const Int<F> own = region_at<F>(t, origin, v.ns, lambertian);
+    const F arrival = arrival_density<F>(scene, path, v), q = receiver_survival<F>(scene, arrival);
+    const Mask<F> tried = lambertian && next_random<F>(random) < q;
+    if (!any(tried)) return;
+    const Int<F> own = region_at<F>(t, origin, v.ns, tried);
     // The group of lights.
     const Int<F> region = select(next_random<F>(random) < F(global_share), Int<F>(0), own);
     const auto pick = [](const F& u, const Int<F>& n) { return min(to_int(F(u * to_float(n))), Int<F>(n - 1)); };
     const Int<F> seed = gather_field(t.regions, &ManifoldRegion::first, region) +
                         pick(next_random<F>(random), gather_field(t.regions, &ManifoldRegion::count, region));
     const Int<F> group = gather_field(t.segments, &ManifoldSegment::group, gather_field(t.seeds, &ManifoldSeed::segment, seed));
-    const GroupSeeds<F> seeds = seeds_of_group<F>(t, own, group, lambertian);
+    const GroupSeeds<F> seeds = seeds_of_group<F>(t, own, group, tried);
 
     // The point of the light.
     const Int<F> lights = gather_field(t.groups, &ManifoldGroup::lights, group);
     const Int<F> light = gather_field(t.groups, &ManifoldGroup::first_light, group) + pick(next_random<F>(random), lights);
     const Pair<F> place = Sampler<F>{path.key ^ 0x5ca1ab1eu, path.index}.pair(uint32_t(bounce));
-    const LightPoint<F> p = chain_light_point<S, F>(scene, select(lambertian, light, Int<F>(0)), place.x(), place.y(), lambertian);
+    const LightPoint<F> p = chain_light_point<S, F>(scene, select(tried, light, Int<F>(0)), place.x(), place.y(), tried);
     const F density = seeds.probability * p.density / to_float(lights);
-    const Mask<F> queued = lambertian && p.valid && density > F(0.f);
+    const Mask<F> queued = tried && p.valid && density > F(0.f);
     if (!any(queued)) return;
-    append_receivers<F>(
-        scene, c,
-        {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * inv_pi, p, path.slot, seeds, density, random, path.light_ratio},
-        queued);
+    append_receivers<F>(scene, c,
+                        {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * (inv_pi / q), p, path.slot, seeds, density, random,
+                         path.light_ratio, arrival},
+                        queued);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -1,0 +1,106 @@
+// Manifold sampling: its agreement in the mean with the other strategies and with closed forms, and that images do not depend on how they
+// are rendered. Every kernel: light_vertices_test.cpp.
+#include "render/film/film_state.h"
+#include "tests/render/integrator/caustic_images.h"
+#include "tests/render/integrator/manifold/lit_casters.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace blush::test::TEST_FILE {
+namespace {
+
+using namespace statistics;
+
+struct Strategies {
+    float light_path_share;
+    bool manifold_sampling;
+};
+std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settings, const Strategies& strategies, int images,
+                                uint32_t first_seed) {
+    return caustic_blocks(scene, settings,
+                          {.light_path_share = strategies.light_path_share, .manifold_sampling = strategies.manifold_sampling},
+                          "manifold sampling", strategies.manifold_sampling, images, first_seed);
+}
+
+TEST(ManifoldSampling, AgreesWithTheOtherStrategies) {
+    for (const auto& [name, scene] : lit_scenes()) {
+        SCOPED_TRACE(name);
+        RenderSettings settings = settings_for(36, 36, 48);
+        const auto without = blocks_of(scene, settings, {0, false}, 16, 1);
+        settings.spp = 24;
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, {0, true}, 16, 1000), without));
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, {0.5f, true}, 16, 2000), without)) << "with light paths";
+    }
+}
+
+// A slab of glass over a floor, under a sun of half a degree: of light from direction cosine c, (1 - F(c))^2 arrives on the floor by
+// refraction alone. Paths end before it is reflected.
+TEST(ManifoldSampling, FindsTheSunThroughASlab) {
+    for (const float ior : {1.1f, 1.5f, 2.4f}) {
+        Scene scene;
+        place(scene, floor_quad(3), lambert(0.5f));
+        Transform slab = at({0, 1, 0});
+        slab.scale = {20, 0.1f, 20};
+        place(scene, cube(false), glass(0, ior), slab);
+        Light sun = caustic_light(Light::Kind::sun, 4);
+        sun.angle_radians = 0.0087f;
+        const Vec3 direction = normalize(Vec3{0.6f, -0.8f, 0});
+        place_light(scene, sun, aimed({0, 5, 0}, direction));
+        scene.view = looking({0, 0.5f, 0.8f}, {0, 0, 0}, 0.6f);
+        RenderSettings settings = settings_for(24, 24, 16);
+        settings.max_bounces = 3;
+        Renderer renderer({.threads = 2, .caustics = {.light_path_share = 0.f, .manifold_sampling = true}});
+        renderer.update(scene, settings);
+        renderer.render(0, settings.spp);
+        ASSERT_TRUE(feature_line(renderer, "manifold sampling").used);
+        const double c = 0.8, g = std::sqrt(double(ior) * double(ior) - 1 + c * c);
+        const double s = (c - g) / (c + g), p = (double(ior) * double(ior) * c - g) / (double(ior) * double(ior) * c + g);
+        const double passed = 1 - (s * s + p * p) / 2;
+        // The Fresnel term over the sun's disk varies by less than the slack.
+        const double expected = 0.5 / double(pi) * 4 * c * passed * passed;
+        EXPECT_TRUE(is_mean(image_of(renderer).whole(), expected, significance, 1e-4 * expected)) << ior;
+    }
+}
+
+TEST(ManifoldSampling, DoesNotDependOnThreadsAndParts) {
+    const Scene scene = lit_scenes()[0].second;
+    for (const float share : {0.f, 0.5f}) {
+        const RenderSettings settings = settings_for(40, 30, 12);
+        const auto image = [&](unsigned threads, std::initializer_list<int64_t> counts) {
+            Renderer renderer({.threads = threads, .caustics = {.light_path_share = share, .manifold_sampling = true}});
+            renderer.update(scene, settings);
+            int64_t first = 0;
+            for (const int64_t count : counts) {
+                EXPECT_TRUE(renderer.render(first, count));
+                first += count;
+            }
+            return renderer.resolve();
+        };
+        const Frame whole = image(1, {12});
+        for (const Frame& other : {image(3, {12}), image(2, {1, 11}), image(2, {5, 7})}) {
+            EXPECT_TRUE(same_pixels(whole, other));
+            EXPECT_EQ(whole.rays.total(), other.rays.total());
+        }
+    }
+}
+
+TEST(ManifoldSampling, GoesOnFromSavedSamples) {
+    const Scene scene = lit_scenes()[0].second;
+    const RenderSettings settings = settings_for(40, 30, 8);
+    const RendererOptions options{.threads = 2, .caustics = {.light_path_share = 0.f, .manifold_sampling = true}};
+    Renderer begun(options), continued(options);
+    for (Renderer* renderer : {&begun, &continued}) renderer->update(scene, settings);
+    EXPECT_TRUE(begun.render(0, 3));
+    const Result<FilmState> state = begun.save_film(0);
+    ASSERT_TRUE(state);
+    EXPECT_TRUE(begun.render(3, 5));
+    ASSERT_TRUE(continued.load_film(*state));
+    EXPECT_TRUE(continued.render(3, 5));
+    EXPECT_TRUE(same_pixels(begun.resolve(), continued.resolve()));
+}
+
+} // namespace
+} // namespace blush::test::TEST_FILE
