@@ -1,4 +1,5 @@
 // The log of a path matches the film: its contribution is what the film received for that sample.
+#include "tests/render/integrator/manifold/lit_casters.h"
 #include "tests/render/scenes.h"
 
 #include "render/renderer.h"
@@ -54,8 +55,9 @@ TEST(PathLog, MatchesTheFilmOnCaustics) {
     constexpr int width = 32, height = 20;
     constexpr int64_t sample = 5;
     int by_light_paths = 0, by_chains = 0;
-    for (const char* name : {"pool", "bulb", "metal-ring"}) {
-        const Scene scene = shipped_scene(name);
+    for (const std::string name : {"pool", "bulb", "metal-ring", "deep pool"}) {
+        const bool vertices = name == "deep pool";
+        const Scene scene = vertices ? deep_pool() : shipped_scene(name);
         RenderSettings settings;
         settings.width = width;
         settings.height = height;
@@ -63,6 +65,7 @@ TEST(PathLog, MatchesTheFilmOnCaustics) {
         Renderer renderer;
         renderer.update(scene, settings);
         ASSERT_TRUE(renderer.render(sample, 1));
+        EXPECT_EQ(feature_line(renderer, "light vertices").used, vertices);
         const Frame frame = renderer.resolve();
         for (int k = 0; k < 12; ++k) {
             const int x = 3 + 7 * k % 26, y = 2 + 5 * k % 17;

@@ -4,6 +4,7 @@
 #include "render/renderer.h"
 #include "scene/affine.h"
 #include "scene/reuse_setting.h"
+#include "tests/render/integrator/manifold/lit_casters.h"
 #include "tests/render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -43,9 +44,8 @@ struct Pixel {
     int x, y;
 };
 
-void expect_sum_of_the_film(const std::string& name, int64_t first, int64_t last) {
+void expect_sum_of_the_film(const std::string& name, const Scene& scene, int64_t first, int64_t last) {
     constexpr int width = 32, height = 20;
-    const Scene scene = shipped_scene(name);
     const RenderSettings settings = settings_for(width, height, first, last);
     Renderer renderer;
     renderer.update(scene, settings);
@@ -70,13 +70,14 @@ void expect_sum_of_the_film(const std::string& name, int64_t first, int64_t last
 }
 
 TEST(PathRecorder, SumsToTheFilm) {
-    for (const std::string& name : shipped_scene_names()) expect_sum_of_the_film(name, 0, 16);
-    expect_sum_of_the_film("two-bounces", 5, 21);
+    for (const std::string& name : shipped_scene_names()) expect_sum_of_the_film(name, shipped_scene(name), 0, 16);
+    expect_sum_of_the_film("two-bounces", shipped_scene("two-bounces"), 5, 21);
 }
 
 // Light paths, manifold sampling and path guiding; the first sample is rendered as the pilots decide.
 TEST(PathRecorder, SumsToTheFilmOnCaustics) {
-    for (const char* name : {"pool", "bulb", "metal-ring"}) expect_sum_of_the_film(name, 0, 5);
+    for (const char* name : {"pool", "bulb", "metal-ring"}) expect_sum_of_the_film(name, shipped_scene(name), 0, 5);
+    expect_sum_of_the_film("pool with light vertices", deep_pool(), 0, 5);
 }
 
 // A single sample needs no pilots.

@@ -11,7 +11,7 @@ namespace {
 using namespace statistics;
 
 constexpr int width = 24, height = 14, planes = 6;
-constexpr CausticOptions everything{.light_path_share = 1.f, .manifold_sampling = true};
+constexpr CausticOptions everything{.light_path_share = 1.f, .manifold_sampling = true, .light_vertices = true};
 
 // With wide lights, and a second light.
 Scene lit_scene(const std::string& name) {

@@ -89,7 +89,8 @@ TEST(StrategyPlanes, SumToTheBeautyWithLightPathsAndManifoldSampling) {
     bool splats = false, chains = false;
     for (const std::string& name : caustic_scene_names()) {
         const RenderSettings settings = settings_for(int(width), int(height), 8);
-        const Frame frame = render_strategies(shipped_scene(name), settings, true, 2, {.light_path_share = 1.f, .manifold_sampling = true});
+        const Frame frame = render_strategies(shipped_scene(name), settings, true, 2,
+                                              {.light_path_share = 1.f, .manifold_sampling = true, .light_vertices = true});
         EXPECT_LE(largest_difference(frame), of_floats) << name;
         splats = splats || total(frame, FoundBy::light_path) > 0;
         chains = chains || total(frame, FoundBy::manifold) > 0;

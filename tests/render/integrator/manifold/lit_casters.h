@@ -1,9 +1,11 @@
-// Scenes of manifold sampling: smooth balls that cast caustics, under lights of every kind.
+// Scenes of manifold sampling: smooth balls that cast caustics, under lights of every kind, also between walls; and a pool in which light
+// vertices pay.
 #pragma once
 
 #include "tests/render/integrator/caustic_images.h"
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -73,6 +75,87 @@ inline std::vector<std::pair<const char*, Scene>> lit_scenes() {
         place(s, ceiling_quad(0.7f, 2.5f), emitter(10));
     });
     return scenes;
+}
+
+// Walls that see the caustics on the floor.
+inline std::vector<std::pair<const char*, Scene>> walled_scenes() {
+    auto scenes = lit_scenes();
+    for (auto& [name, scene] : scenes) {
+        const auto wall = [&](const Vec3& center, const Vec3& size) {
+            Transform t = at(center);
+            t.scale = size;
+            place(scene, cube(false), lambert({0.8f, 0.75f, 0.7f}), t);
+        };
+        wall({0, 0.8f, -1.6f}, {2, 0.8f, 0.1f});
+        wall({-1.8f, 0.8f, 0}, {0.1f, 0.8f, 1.6f});
+    }
+    return scenes;
+}
+
+// A block of water of the size of the pool, whose top has waves that focus on the bottom. Its sides are in the walls.
+inline GeometryPtr waves() {
+    constexpr int n = 48;
+    Geometry g;
+    const auto height = [](double x, double z) { return 0.004 * (std::sin(18 * x + 8 * z) + std::sin(6 * x - 22 * z)); };
+    const auto slope = [](double x, double z) {
+        const double a = std::cos(18 * x + 8 * z), b = std::cos(6 * x - 22 * z);
+        return Vec3{float(-0.004 * (18 * a + 6 * b)), 1, float(-0.004 * (8 * a - 22 * b))};
+    };
+    const auto add = [&](double x, double y, double z, const Vec3& normal) {
+        g.positions.push_back({float(x), float(y), float(z)});
+        g.normals.push_back(normalize(normal));
+        return uint32_t(g.positions.size() - 1);
+    };
+    const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+        for (const uint32_t i : {a, b, c, a, c, d}) g.indices.push_back(i);
+    };
+    const auto side_of = [](int i) { return -1.05 + 2.1 * i / n; };
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) add(side_of(i), height(side_of(i), side_of(j)), side_of(j), slope(side_of(i), side_of(j)));
+    const auto top = [](int i, int j) { return uint32_t(i * (n + 1) + j); };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) quad(top(i, j), top(i, j + 1), top(i + 1, j + 1), top(i + 1, j));
+    const auto bottom = [&](double x, double z) { return add(x, -1.05, z, {0, -1, 0}); };
+    const uint32_t corners[4] = {bottom(-1.05, -1.05), bottom(1.05, -1.05), bottom(1.05, 1.05), bottom(-1.05, 1.05)};
+    quad(corners[0], corners[1], corners[2], corners[3]);
+    // Sides, from the edges of the top to the bottom.
+    const auto strip = [&](const Vec3& normal, auto&& x, auto&& z) {
+        for (int i = 0; i < n; ++i) {
+            const double x0 = x(i), z0 = z(i), x1 = x(i + 1), z1 = z(i + 1);
+            quad(add(x0, height(x0, z0), z0, normal), add(x1, height(x1, z1), z1, normal), add(x1, -1.05, z1, normal),
+                 add(x0, -1.05, z0, normal));
+        }
+    };
+    strip({0, 0, -1}, side_of, [](int) { return -1.05; });
+    strip(
+        {-1, 0, 0}, [](int) { return -1.05; }, [&](int i) { return side_of(n - i); });
+    strip(
+        {0, 0, 1}, [&](int i) { return side_of(n - i); }, [](int) { return 1.05; });
+    strip(
+        {1, 0, 0}, [](int) { return 1.05; }, side_of);
+    return std::make_shared<const Geometry>(std::move(g));
+}
+
+// White walls and bottom under waves, and a sun of half a degree whose reflection the camera does not see.
+inline Scene deep_pool() {
+    Scene scene;
+    const auto wall = [&](const Vec3& center, const Vec3& size) {
+        Transform t = at(center);
+        t.scale = size;
+        place(scene, cube(false), lambert(0.8f), t);
+    };
+    wall({0, -1.1f, 0}, {1.1f, 0.1f, 1.1f});
+    for (const float side : {-1.f, 1.f}) {
+        wall({1.1f * side, -0.4f, 0}, {0.1f, 0.7f, 1.1f});
+        wall({0, -0.4f, 1.1f * side}, {1.1f, 0.7f, 0.1f});
+    }
+    Material water = glass(0, 1.33f);
+    place(scene, waves(), water);
+    Light sun = caustic_light(Light::Kind::sun, 4);
+    sun.angle_radians = 0.0087f;
+    place_light(scene, sun, aimed({0, 5, 0}, {0.9f, -1, 0.2f}));
+    scene.view = looking({0.3f, 3, 1.5f}, {0, -0.6f, 0}, 0.6f);
+    return scene;
 }
 
 } // namespace blush::test

@@ -66,11 +66,12 @@ TEST(ManifoldSampling, FindsTheSunThroughASlab) {
 }
 
 TEST(ManifoldSampling, DoesNotDependOnThreadsAndParts) {
-    const Scene scene = lit_scenes()[0].second;
+    const Scene scene = walled_scenes()[0].second;
     for (const float share : {0.f, 0.5f}) {
         const RenderSettings settings = settings_for(40, 30, 12);
         const auto image = [&](unsigned threads, std::initializer_list<int64_t> counts) {
-            Renderer renderer({.threads = threads, .caustics = {.light_path_share = share, .manifold_sampling = true}});
+            Renderer renderer(
+                {.threads = threads, .caustics = {.light_path_share = share, .manifold_sampling = true, .light_vertices = true}});
             renderer.update(scene, settings);
             int64_t first = 0;
             for (const int64_t count : counts) {
@@ -88,9 +89,9 @@ TEST(ManifoldSampling, DoesNotDependOnThreadsAndParts) {
 }
 
 TEST(ManifoldSampling, GoesOnFromSavedSamples) {
-    const Scene scene = lit_scenes()[0].second;
+    const Scene scene = walled_scenes()[0].second;
     const RenderSettings settings = settings_for(40, 30, 8);
-    const RendererOptions options{.threads = 2, .caustics = {.light_path_share = 0.f, .manifold_sampling = true}};
+    const RendererOptions options{.threads = 2, .caustics = {.light_path_share = 0.f, .manifold_sampling = true, .light_vertices = true}};
     Renderer begun(options), continued(options);
     for (Renderer* renderer : {&begun, &continued}) renderer->update(scene, settings);
     EXPECT_TRUE(begun.render(0, 3));
