@@ -64,7 +64,7 @@ template <Features S, class F> CameraConnection<F> connect_camera(const CameraRe
 }
 
 // A vertex of a light path.
-template <class F> struct LightVertex {
+template <class F> struct LightPathVertex {
     Surface<F> surface;
     MaterialPoint<F> material;
     HitSide<F> side;         // wo: unit, towards the vertex before
@@ -77,7 +77,7 @@ template <class F> struct LightVertex {
     F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
 };
 // Where the path meets a surface, in the lanes of `met`.
-template <Features S, class F> [[gnu::always_inline]] inline LightVertex<F>
+template <Features S, class F> [[gnu::always_inline]] inline LightPathVertex<F>
 light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met) {
     // Textures are filtered as the camera sees them.
     const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
@@ -95,14 +95,14 @@ light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, con
 }
 // Weight of a sample of a delta lobe: what it leaves of the light that passes it. `cosine`: between wi and the geometric normal; `choice`:
 // of the lobe.
-template <Features S, class F>
-[[gnu::always_inline]] inline Vec<F> delta_light_weight(const LightVertex<F>& v, const BsdfSample<F>& s, const F& cosine, const F& choice) {
+template <Features S, class F> [[gnu::always_inline]] inline Vec<F> delta_light_weight(const LightPathVertex<F>& v, const BsdfSample<F>& s,
+                                                                                       const F& cosine, const F& choice) {
     return s.weight * (cosine / v.cosine * delta_adjoint<S, F>(v.bsdf, v.material.bsdf.layers, v.shading.wo, s.wi, choice));
 }
 
 // Density with which NEE at the first vertex samples the point of the light, over projected solid angle.
 template <Features S, class F>
-F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted, int k, const LightVertex<F>& v, const Mask<F>& lanes) {
+F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted, int k, const LightPathVertex<F>& v, const Mask<F>& lanes) {
     alignas(64) float x[width<F>]{}, y[width<F>]{}, z[width<F>]{}, nx[width<F>]{}, ny[width<F>]{}, nz[width<F>]{};
     alignas(64) int32_t light[width<F>]{};
     for_each_lane(bits(lanes), [&](int i) {
@@ -121,7 +121,7 @@ F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted,
 
 // Queues the connection of a vertex to the camera: radiance, as a share of one light path's flux, with its MIS weight.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] void
-connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>& path, const LightVertex<F>& v, int bounce) {
+connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>& path, const LightPathVertex<F>& v, int bounce) {
     const SceneTables& scene = *context.scene;
     const Mask<F> connectable = v.scatters && !is_delta_only<F>(v.bsdf);
     if (!any(connectable)) return;
@@ -159,7 +159,7 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
 
 // Appends the path behind the vertex.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_light_path(const KernelContext& context, const Path<F>& path,
-                                                                                        const LightVertex<F>& v, int bounce,
+                                                                                        const LightPathVertex<F>& v, int bounce,
                                                                                         TileScratch& scratch, PathQueue& next, int queue) {
     const EstimatorSettings& settings = context.settings;
     const Sampler<F> sampler{path.key, path.index};
@@ -218,7 +218,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         const Hit<F> hit = load_hit<F>(scratch.hits, k);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        LightVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met);
+        LightPathVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met);
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(v.bsdf);
             if (!any(v.scatters)) continue;

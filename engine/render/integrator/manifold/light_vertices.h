@@ -45,8 +45,8 @@ void emit_light_vertices(const SceneTables& scene, const PathQueue& camera, Colu
 }
 
 // Keeps light vertices in the lanes of `arrived`.
-template <class F>
-void keep_light_vertices(LightVertexColumns& c, const Path<F>& path, const LightVertex<F>& v, const Int<F>& chain, const Mask<F>& arrived) {
+template <class F> void keep_light_vertices(LightVertexColumns& c, const Path<F>& path, const LightPathVertex<F>& v, const Int<F>& chain,
+                                            const Mask<F>& arrived) {
     const F cosine = dot(v.side.wo, v.shading.ns);
     const Vec<F> reflected = v.beta * v.bsdf.diffuse * (max(cosine, F(0.f)) * inv_pi / v.cosine);
     const Mask<F> kept = arrived && has_light(reflected) && is_finite(reflected);
@@ -72,7 +72,7 @@ template <Features S, class F>
         const Mask<F> active = as_mask(iota<F>() + k < size);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        const LightVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met);
+        const LightPathVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met);
         const Int<F> events = path.chain >> chain_count_shift;
         const Mask<F> ends = v.scatters && is_lambertian<S, F>(v.bsdf);
         const Mask<F> arrived = ends && !v.shading.behind && as_mask(events > 0);
