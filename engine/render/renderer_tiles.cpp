@@ -32,6 +32,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, u
     };
     const EdgePixels* pixels = divider == 1 ? edges.pixels(decided_as(run.first)) : nullptr;
     job.stride = run.stride;
+    if (tables.adjoint.splits) max_samples = std::clamp(tile_capacity / (most_copies * job.width * job.height), 1, max_samples);
     for (int64_t done = 0; done < run.count; done += job.samples) {
         if (done > 0 && wanted && !wanted()) return false;
         job.first_sample = run.first + done * run.stride;
@@ -107,7 +108,8 @@ bool Renderer::State::render_uniformly(int64_t first, int64_t count, const Wante
     const PixelRect pixels = rendered_pixels();
     const ReuseGroups groups = reuse_groups(reuse_group_size(first));
     const int64_t pixels_per_worker = int64_t(pixels.x1 - pixels.x0) * (pixels.y1 - pixels.y0) / workers.threads();
-    const TileShape shape = groups.size() > 1 ? tile_shape(groups) : tile_shape(count, pixels_per_worker);
+    const bool splits = tables_for(first).adjoint.splits;
+    const TileShape shape = groups.size() > 1 ? tile_shape(groups) : splits ? splitting_shape(count) : tile_shape(count, pixels_per_worker);
     return for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
         return render_run(job, {first, count, 1, groups}, shape.samples, worker, wanted);
     });

@@ -21,6 +21,9 @@ inline TileShape tile_shape(int64_t count, int64_t pixels_per_worker) {
     return {64, 32, 1};
 }
 
+// Where paths split, with room for the copies.
+inline TileShape splitting_shape(int64_t count) { return count >= 2 ? TileShape{16, 16, 2} : TileShape{32, 16, 1}; }
+
 // With path reuse a tile is a block, so that no group is cut.
 inline TileShape tile_shape(const ReuseGroups& groups) { return {groups.block_width, groups.block_height, 1}; }
 // Tiles of a sample plan have different numbers of samples, so groups must not cross tiles.

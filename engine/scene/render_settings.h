@@ -11,8 +11,9 @@
 namespace blush {
 
 // Russian roulette: rule for the survival probability q of a path after a bounce, given its throughput beta from the camera on.
-// Arvo and Kirk 1990. Survivors are divided by q, so every rule except biased_cut is unbiased. A pilot learns what `adjoint` and
-// `efficiency` need (render/roulette/adjoint_field.h); the first sample is rendered by `sqrt` instead of these and of `automatic`.
+// Arvo and Kirk 1990. Survivors are divided by q, so every rule except biased_cut is unbiased. A pilot learns what `adjoint`,
+// `efficiency` and `splitting` need (render/roulette/adjoint_field.h); the first sample is rendered by `sqrt` instead of these and of
+// `automatic`.
 struct Roulette {
     enum class Rule : uint8_t {
         automatic,  // of sqrt, adjoint and efficiency the one with the least variance x work, as a pilot measures
@@ -22,7 +23,8 @@ struct Roulette {
         sqrt,       // q = sqrt(largest component)
         constant,   // q = probability
         adjoint,    // q = luminance of beta x light that paths find behind this place / luminance of the pixel
-        efficiency, // q that gives the image the least variance x work (EARS)
+        efficiency, // q that gives the image the least variance x work
+        splitting,  // the same, and paths that are worth it go on in several copies (EARS; path_splitting.h)
         biased_cut, // ends paths with max(beta) < threshold without compensation: biased on purpose, for teaching
     };
     Rule rule = Rule::sqrt;
@@ -32,7 +34,7 @@ struct Roulette {
     float probability = 0.8f; // constant
     float threshold = 0.1f;   // biased_cut
     // True if the rule needs a pilot.
-    bool learns() const { return rule == Rule::automatic || rule == Rule::adjoint || rule == Rule::efficiency; }
+    bool learns() const { return rule == Rule::automatic || rule == Rule::adjoint || rule == Rule::efficiency || rule == Rule::splitting; }
     bool operator==(const Roulette&) const = default;
 };
 

@@ -12,7 +12,7 @@
 namespace blush {
 namespace {
 
-constexpr std::array<EnumName<Roulette::Rule>, 9> roulette_words{{
+constexpr std::array<EnumName<Roulette::Rule>, 10> roulette_words{{
     {Roulette::Rule::automatic, "auto"},
     {Roulette::Rule::off, "off"},
     {Roulette::Rule::max, "max"},
@@ -21,6 +21,7 @@ constexpr std::array<EnumName<Roulette::Rule>, 9> roulette_words{{
     {Roulette::Rule::constant, "constant"},
     {Roulette::Rule::adjoint, "adjoint"},
     {Roulette::Rule::efficiency, "efficiency"},
+    {Roulette::Rule::splitting, "splitting"},
     {Roulette::Rule::biased_cut, "biased-cut"},
 }};
 constexpr std::array<EnumName<Strategy>, 3> strategy_words{{

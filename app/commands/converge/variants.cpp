@@ -15,6 +15,7 @@ constexpr const char* roulette[]{"off: --roulette off",
                                  "constant 0.8: --roulette constant=0.8,start=3",
                                  "adjoint: --roulette adjoint,start=1",
                                  "efficiency: --roulette efficiency,start=1",
+                                 "splitting: --roulette splitting,start=1",
                                  "biased cut (wrong on purpose): --roulette biased-cut=0.1,start=3"};
 constexpr const char* strategies[]{"both, weighted (mis): --strategy mis", "light sampling: --strategy light",
                                    "BSDF sampling: --strategy bsdf"};

@@ -179,7 +179,7 @@ void add_path_options(CLI::App& app, RenderOptions& o) {
 
 void add_estimator_options(CLI::App& app, RenderOptions& o) {
     add_parsed(app, "--roulette", o.settings.roulette, parse_roulette,
-               "Russian roulette: auto, off, max, luminance, sqrt, constant=P, adjoint, efficiency, biased-cut=T [auto,start=3]")
+               "Russian roulette: auto, off, max, luminance, sqrt, constant=P, adjoint, efficiency, splitting, biased-cut=T [auto,start=3]")
         ->type_name("RULE[,start=N][,floor=P][,cap=P]");
     add_parsed(app, "--strategy", o.settings.strategy, parse_strategy, "Direct light by MIS, light sampling (NEE) or BSDF sampling [mis]")
         ->type_name("mis|light|bsdf");

@@ -166,6 +166,8 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
         if (settings.smooth_edges)
             log.line("smooth edges: in a pixel at the edge of an emitter the film takes more camera rays for emission; alone this path is "
                      "worth");
+        if (learned.splits(sample))
+            log.line("splitting: where it pays the film follows a path in several copies; alone this path is worth");
         log.line("radiance {}", rgb(radiance));
         if (!is_valid_radiance(radiance)) {
             const Fault fault = find_fault(context, x, y, sample, scratch);

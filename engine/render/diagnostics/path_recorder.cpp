@@ -111,6 +111,10 @@ std::vector<std::string> PathRecorder::not_replayed() const {
         notes.push_back("path reuse: where the film shares the light of paths among pixels, a pixel also holds shares of its neighbours");
     if (s.settings.smooth_edges)
         notes.push_back("smooth edges: in a pixel at the edge of an emitter the film takes more camera rays for the emission");
+    if (s.decided && s.learned.splits(AdjointChoice::first_sample))
+        notes.push_back(
+            "splitting: from sample 4 on the film follows a path in several copies where that pays; one is recorded, with the same "
+            "light in the mean");
     if (s.settings.clamp.limit > 0) notes.push_back("clamping: the film limits the light of a sample");
     if (!s.scene.catchers().empty()) notes.push_back("shadow catcher: the film shows its shadow instead of its light");
     return notes;

@@ -1,6 +1,6 @@
 // Traces one sample again, vertex by vertex, using the kernels' own stages with one lane. A sample is a function of scene,
 // settings, pixel, index and seed, so this reproduces what the film received (with path reuse, before sharing; without light paths, which
-// light_path_replay.h has).
+// light_path_replay.h has; without splitting).
 #pragma once
 
 #include "render/integrator/wavefront.h"

@@ -170,6 +170,15 @@ template <class F> void record_continuations(ContinuationTrials& trials, const P
     });
 }
 
+// The same for splitting: paths that arrive at a surface, by the direction back along them.
+template <class F> void record_arrivals(ContinuationTrials& trials, const Path<F>& path, const Hit<F>& hit, const Mask<F>& active) {
+    for_each_lane(bits(active), [&](int i) { trials.note_ray(lane(path.slot, i)); });
+    const Vec<F> at = path.ray.origin + path.ray.direction * hit.t, wo = -path.ray.direction;
+    const auto of_lane = [](const Vec<F>& v, int i) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
+    for_each_lane(bits(active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance)),
+                  [&](int i) { trials.add(of_lane(at, i), of_lane(wo, i), lane(path.slot, i), double(luminance(of_lane(path.beta, i)))); });
+}
+
 // The importance of the paths' pixels, if they have one.
 template <class F> void load_importance(const TileScratch& scratch, const SceneTables& scene, Path<F>& path, const Mask<F>& active) {
     if (scene.adjoint.empty()) return;

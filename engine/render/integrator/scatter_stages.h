@@ -31,6 +31,7 @@ template <class F> F survival_probability(const Roulette& r, const Vec<F>& beta)
     case Roulette::Rule::automatic: // these before they have been learned, and for paths that do not begin at the camera
     case Roulette::Rule::adjoint:
     case Roulette::Rule::efficiency:
+    case Roulette::Rule::splitting:
     case Roulette::Rule::sqrt: q = sqrt(max_component(beta)); break;
     case Roulette::Rule::constant: q = F(r.probability); break;
     case Roulette::Rule::biased_cut: return select(max_component(beta) < F(r.threshold), F(0.f), F(1.f));

@@ -8,6 +8,7 @@
 #include "render/integrator/manifold/light_vertices.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/path_reuse.h"
+#include "render/integrator/path_splitting.h"
 #include "render/integrator/strategy_sums.h"
 #include "render/integrator/thin_transmission.h"
 #include "render/kernels/kernel.h"
@@ -124,6 +125,7 @@ template <Features S, class F>
     std::fill_n(scratch.g.data, n, 0.0);
     std::fill_n(scratch.b.data, n, 0.0);
     if (scratch.continuations) scratch.continuations->begin(n);
+    if (scratch.arrivals) scratch.arrivals->begin(n);
     if (scratch.groups) scratch.groups->clear(n);
     if (scratch.strategies) scratch.strategies->clear(n);
     if (!scratch.roulette) return;
@@ -203,6 +205,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if (scratch.strategies) note_guided<F>(*scratch.strategies, now.slot + k, step);
         if (scratch.escapes) record_escapes<F>(*scratch.escapes, step.next, step.continues);
         if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
+        if (scratch.arrivals) record_arrivals<F>(*scratch.arrivals, path, load_hit<F>(scratch.hits, k), active);
         if (scratch.continuations) record_continuations<F>(*scratch.continuations, path, step.next, step.continues, active);
         if (scratch.photons) record_photons<F>(*scratch.photons, path, step, bounce, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
@@ -253,6 +256,8 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         if (connects_light_vertices<S>(*context.scene)) trace_light_vertices<S, F>(context, scratch);
     const bool reuses = context.settings.reuse.size() > 1;
     if (reuses && !scratch.reuse) scratch.reuse = std::make_unique<ReuseColumns>();
+    // Path reuse shares one second vertex of each sample.
+    const bool splits = context.scene->adjoint.splits && !reuses;
     bool unshared_is_stashed = false;
     const auto radiance_of = [&](int slot) { return dot(luminance_weights, Vec3d{scratch.r[slot], scratch.g[slot], scratch.b[slot]}); };
     PathQueue* now = &scratch.paths[0];
@@ -269,6 +274,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
             scratch.escapes->first = scratch.escapes->all.size();
         }
         timer.end(Stage::trace);
+        if (splits && bounce < context.settings.max_bounces) split_paths<S, F>(context, scratch, *now, bounce);
         const int64_t light_ticks = shade_paths<S, F>(context, scratch, *now, *next, bounce);
         scratch.stages[Stage::light] += light_ticks;
         if (scratch.bounces) record_bounce(scratch, job.paths(), bounce);
@@ -279,6 +285,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
             unshared_is_stashed = true;
         }
         timer.end(Stage::shade, light_ticks);
+        if (scratch.arrivals) scratch.arrivals->note_arrived(radiance_of);
         if (scratch.shadows.size > 0) connect_paths<S, F>(context, scratch, bounce);
         if constexpr (S.has(Feature::light_paths))
             if (samples_manifolds<S>(*context.scene)) add_chains<S, F>(context, scratch, *now, bounce);
@@ -292,6 +299,7 @@ template <Features S, class F> void render_tile(const KernelContext& context, co
         if (scratch.bounces) finish_chained_light(scratch, job.paths());
     if (scratch.guiding) scratch.guiding->finish(radiance_of);
     if (scratch.continuations) scratch.continuations->finish(radiance_of);
+    if (scratch.arrivals) scratch.arrivals->finish(radiance_of);
     if (!unshared_is_stashed) return;
     reuse_paths<F>(context, job, scratch);
     timer.end(Stage::reuse);

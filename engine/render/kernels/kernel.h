@@ -70,6 +70,13 @@ struct RouletteColumns {
     PathCounts counts[max_counted_bounces]; // accumulated
 };
 
+// For splitting (path_splitting.h).
+constexpr int most_copies = 8; // of a sample that are traced at once; a tile whose paths split has room for so many of each
+struct SplittingColumns {
+    Column<int32_t> alive;  // by slot: paths of the sample
+    Column<int32_t> copies; // by path of the queue
+};
+
 // For passing panes (thin_transmission.h).
 struct PaneColumns {
     Column<int32_t> passed; // by path of the queue: number of panes passed
@@ -98,6 +105,8 @@ struct TileScratch {
     std::unique_ptr<GuidingTrials> guiding;             // null: not recorded; not with path reuse
     std::unique_ptr<ContinuationTrials> continuations;  // null: not recorded; not with path reuse
     std::unique_ptr<Column<float>> importance;          // of the slot's pixel (shading/learned_adjoint.h); null until a kernel needs it
+    std::unique_ptr<ContinuationTrials> arrivals;       // the same, of paths that arrive at a surface
+    std::unique_ptr<SplittingColumns> splitting;        // allocated by the first kernel that splits paths
     std::unique_ptr<PhotonTrials> photons;              // null: paths begin at the camera; else one for each path of the tile
     std::unique_ptr<LightPathColumns> light_paths;      // null: no light paths
     std::unique_ptr<ManifoldColumns> manifolds;         // allocated by the first kernel with manifold sampling

@@ -76,6 +76,10 @@ public:
     const LightPathChoice& light_paths() const { return light_paths_; }
     // True if samples are connected to other vertices than path reuse knows, by densities that it does not know.
     bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
+    // True if a sample of this index may go on in several copies (path_splitting.h). Requires !needs_pilot(sample + 1).
+    bool splits(int64_t sample) const {
+        return sample >= AdjointChoice::first_sample && adjoint_.splits() && !excludes_reuse() && reuse_group_size(sample) == 1;
+    }
     const ReuseChoice& reuse() const { return reuse_; }
     // The decision of its pilot, as saved with samples.
     void decide_reuse(const PilotFigures& pilot) { reuse_.decide(pilot); }

@@ -22,6 +22,8 @@ SceneTables AdjointChoice::tables(const SceneTables& scene, int64_t sample) cons
     SceneTables tables = scene;
     if (sample > 0 && pays()) tables.roulette_start = learned_->start;
     if (sample >= first_sample && pays()) tables.adjoint = learned_->field.tables(width_, height_);
+    // Manifold sampling and light paths pair one vertex of a sample with another.
+    if (!scene.manifolds.empty() || !scene.emission.empty()) tables.adjoint.splits = nullptr;
     return tables;
 }
 

@@ -29,6 +29,8 @@ public:
 
     // True if samples from first_sample on follow a learned rule, or all but the first start roulette later than the settings.
     bool pays() const { return learned_ && (!learned_->field.empty() || learned_->start > 0); }
+    // True if samples from first_sample on may go on in several copies. What replays a sample follows one of them (path_recorder.h).
+    bool splits() const { return learned_ && learned_->field.splits(); }
     // The scene's tables for a sample of this index at full resolution. Requires the pilot from first_sample on. Valid as long as both.
     SceneTables tables(const SceneTables& scene, int64_t sample) const;
 

@@ -1,6 +1,7 @@
 #include "render/roulette/adjoint_field.h"
 
 #include "render/lights/receiver_grid.h"
+#include "render/pilots/variant_comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +9,12 @@
 namespace blush {
 namespace {
 
-constexpr int block = 4;           // cells along a block
-constexpr double prior_trials = 4; // weight of the coarser estimate
-constexpr double darkest = 0.02;   // a pixel counts as no darker than this share of the image's mean
-constexpr double extreme = 1e30;   // of table entries, and its inverse: so that no product is NaN
-constexpr double left_out = 0.01;  // share of the pixels, those of the largest variance: fireflies say nothing about the others
+constexpr int block = 4;                              // cells along a block
+constexpr double prior_trials = 4;                    // weight of the coarser estimate
+constexpr double darkest = 0.02;                      // a pixel counts as no darker than this share of the image's mean
+constexpr double extreme = 1e30;                      // of table entries, and its inverse: so that no product is NaN
+constexpr double vertex_work = 0.5 + shadow_ray_cost; // of a copy at its first vertex: it is shaded, but its ray was traced before
+constexpr double left_out = 0.01; // share of the pixels, those of the largest variance: fireflies say nothing about the others
 
 struct Moments {
     double mean = 0, square = 0, rays = 0;
@@ -61,6 +63,31 @@ struct Neighbourhood {
 
 float bounded(double x) { return float(std::clamp(x, 1 / extreme, extreme)); }
 
+// Of each cell and side of the grid, from the moments of its trials. Empty without light.
+template <class Value>
+std::vector<float> table_of(const ReceiverGrid& grid, std::span<const ContinuationTrial> trials, const Value& value) {
+    const CellBlocks blocks{grid, block};
+    const auto cells = size_t(grid.count());
+    Sums of_scene;
+    std::vector<Sums> of_block(size_t(blocks.count())), of_cell(cells), of_row(cells * receiver_sides);
+    for (const ContinuationTrial& t : trials) {
+        if (!is_finite(t)) continue;
+        const auto cell = receiver_cell<float>(grid, t.position);
+        for (Sums* sums : {&of_scene, &of_block[size_t(blocks.of(cell))], &of_cell[size_t(cell)],
+                           &of_row[size_t(cell) * receiver_sides + size_t(receiver_side<float>(t.normal))]})
+            sums->add(t);
+    }
+    std::vector<float> table;
+    if (!(of_scene.sum.mean > 0)) return table;
+    const Moments scene = of_scene.with({});
+    table.reserve(of_row.size());
+    for (size_t row = 0; row < of_row.size(); ++row) {
+        const size_t cell = row / receiver_sides;
+        table.push_back(bounded(value(of_row[row].with(of_cell[cell].with(of_block[size_t(blocks.of(int32_t(cell)))].with(scene))))));
+    }
+    return table;
+}
+
 double variance_of(std::span<const float> samples) {
     double sum = 0, square = 0;
     for (const float s : samples) {
@@ -73,10 +100,12 @@ double variance_of(std::span<const float> samples) {
 
 } // namespace
 
-AdjointField::AdjointField(Roulette::Rule rule, std::span<const ContinuationTrial> trials, const AdjointImage& image) {
+AdjointField::AdjointField(Roulette::Rule rule, std::span<const ContinuationTrial> trials, std::span<const ContinuationTrial> arrivals,
+                           const AdjointImage& image) {
     measure_image(image);
     if (!importances_.empty()) learn_values(rule, trials);
     if (values_.empty()) *this = AdjointField();
+    if (!values_.empty() && rule == Roulette::Rule::splitting) learn_splits(arrivals);
 }
 
 void AdjointField::measure_image(const AdjointImage& image) {
@@ -106,34 +135,27 @@ void AdjointField::measure_image(const AdjointImage& image) {
     down_ = image.height;
 }
 
+// No noise to remove: no path is worth more than another.
+double AdjointField::noise_scale() const { return std::sqrt(rays_per_sample_ / std::max(relative_variance_, 1e-9)); }
+
 void AdjointField::learn_values(Roulette::Rule rule, std::span<const ContinuationTrial> trials) {
     std::vector<Vec3> positions;
     for (const ContinuationTrial& t : trials)
         if (is_finite(t)) positions.push_back(t.position);
     grid_ = make_receiver_grid(positions, cells_along_longest);
     if (grid_.cells_per_metre == 0) return;
-    const CellBlocks blocks{grid_, block};
-    const auto cells = size_t(grid_.count());
-    Sums of_scene;
-    std::vector<Sums> of_block(size_t(blocks.count())), of_cell(cells), of_row(cells * receiver_sides);
-    for (const ContinuationTrial& t : trials) {
-        if (!is_finite(t)) continue;
-        const auto cell = receiver_cell<float>(grid_, t.position);
-        for (Sums* sums : {&of_scene, &of_block[size_t(blocks.of(cell))], &of_cell[size_t(cell)],
-                           &of_row[size_t(cell) * receiver_sides + size_t(receiver_side<float>(t.normal))]})
-            sums->add(t);
-    }
-    if (!(of_scene.sum.mean > 0)) return;
-    const Moments scene = of_scene.with({});
-    // No noise to remove: no path is worth more than another.
-    const double efficiency = std::sqrt(rays_per_sample_ / std::max(relative_variance_, 1e-9));
-    values_.reserve(of_row.size());
-    for (size_t row = 0; row < of_row.size(); ++row) {
-        const size_t cell = row / receiver_sides;
-        const Moments m = of_row[row].with(of_cell[cell].with(of_block[size_t(blocks.of(int32_t(cell)))].with(scene)));
-        const double value = rule == Roulette::Rule::adjoint ? m.mean : std::sqrt(m.square / std::max(m.rays, 1e-9)) * efficiency;
-        values_.push_back(bounded(value));
-    }
+    const double scale = noise_scale();
+    values_ = table_of(grid_, trials, [&](const Moments& m) {
+        return rule == Roulette::Rule::adjoint ? m.mean : std::sqrt(m.square / std::max(m.rays, 1e-9)) * scale;
+    });
+}
+
+void AdjointField::learn_splits(std::span<const ContinuationTrial> arrivals) {
+    const double scale = noise_scale();
+    splits_ = table_of(grid_, arrivals, [&](const Moments& m) {
+        const double work = vertex_work + (1 + shadow_ray_cost) * m.rays;
+        return std::sqrt(std::max(0.0, m.square - m.mean * m.mean) / work) * scale;
+    });
 }
 
 AdjointTables AdjointField::tables(int width, int height) const {
@@ -141,6 +163,7 @@ AdjointTables AdjointField::tables(int width, int height) const {
     return {.values = values_.data(),
             .grid = grid_,
             .importances = importances_.data(),
+            .splits = splits_.empty() ? nullptr : splits_.data(),
             .across = across_,
             .down = down_,
             .across_scale = float(across_) / float(width),

@@ -21,12 +21,14 @@ constexpr int longest_paths = 32;
 constexpr double least_roulette_share = 0.25; // below, no learned rule was worth its pilot on any measured scene
 // Reading the tables takes time that is not counted as work, and a pilot is no more exact than that.
 constexpr double largest_cost = 0.9;
+// That `automatic` compares. Splitting lost to roulette alone on nearly all measured scenes (docs/dev/performance.md), where a longer pilot
+// would cost all images.
 constexpr std::array learned_rules{Roulette::Rule::adjoint, Roulette::Rule::efficiency};
 
 // What paths find in the image at a low resolution.
 struct Findings {
     AdjointImage image;
-    std::vector<ContinuationTrial> trials;
+    std::vector<ContinuationTrial> trials, arrivals;
     double path_rays = 0, roulette_rays = 0; // those behind the first bounces, where roulette does not act yet
 };
 
@@ -43,9 +45,11 @@ Findings find_in_tile(const KernelContext& context, const Kernel& kernel, const 
     Findings found;
     tile.camera_rays = tile.bounce_rays = tile.shadow_rays = 0;
     tile.continuations = std::make_unique<ContinuationTrials>();
+    if (context.settings.roulette.rule == Roulette::Rule::splitting) tile.arrivals = std::make_unique<ContinuationTrials>();
     tile.roulette = std::make_unique<RouletteColumns>();
     kernel.render(context, job, tile);
     found.trials = std::move(std::exchange(tile.continuations, nullptr)->all);
+    if (const auto arrivals = std::exchange(tile.arrivals, nullptr)) found.arrivals = std::move(arrivals->all);
     const auto counted = std::exchange(tile.roulette, nullptr);
     for (int bounce = context.settings.roulette.start; bounce < max_counted_bounces; ++bounce)
         found.roulette_rays += double(counted->counts[bounce].alive);
@@ -76,8 +80,10 @@ std::optional<Findings> find_light(const KernelContext& full, int samples, const
     });
     if (!done) return std::nullopt;
     for (Findings& tile : of_tile) {
-        all.trials.insert(all.trials.end(), tile.trials.begin(), tile.trials.end());
-        tile.trials = {}; // in closed rooms these are tens of megabytes
+        for (auto trials : {&Findings::trials, &Findings::arrivals}) {
+            (all.*trials).insert((all.*trials).end(), (tile.*trials).begin(), (tile.*trials).end());
+            tile.*trials = {}; // in closed rooms these are tens of megabytes
+        }
         all.image.rays += tile.image.rays;
         all.path_rays += tile.path_rays;
         all.roulette_rays += tile.roulette_rays;
@@ -150,11 +156,11 @@ std::optional<AdjointPilot> learn_adjoint(const KernelContext& context, int grou
     if (!found) return std::nullopt;
     if (rule != Roulette::Rule::automatic) {
         pilot.best = rule;
-        pilot.field = AdjointField(rule, found->trials, found->image);
+        pilot.field = AdjointField(rule, found->trials, found->arrivals, found->image);
         return pilot;
     }
     Fields fields;
-    for (size_t k = 0; k < fields.size(); ++k) fields[k] = AdjointField(learned_rules[k], found->trials, found->image);
+    for (size_t k = 0; k < fields.size(); ++k) fields[k] = AdjointField(learned_rules[k], found->trials, found->arrivals, found->image);
     const auto figures = compare_rules(context, group_size, fields, kernel, workers, scratch, wanted);
     if (!figures) return std::nullopt;
     const size_t best = (*figures)[0].cost() < (*figures)[1].cost() ? 0 : 1;

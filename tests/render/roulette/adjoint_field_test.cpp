@@ -46,7 +46,7 @@ float value_at(const AdjointField& field, const Vec3& at, const Vec3& normal = u
 
 TEST(AdjointField, HoldsTheMeanOfTheLightBehind) {
     const Rooms rooms;
-    const AdjointField field(Roulette::Rule::adjoint, rooms.trials(), checkered(8));
+    const AdjointField field(Roulette::Rule::adjoint, rooms.trials(), {}, checkered(8));
     // Four trials of the rest of the scene are mixed with 10,000.
     EXPECT_NEAR(value_at(field, left), rooms.mean, 0.01f * rooms.mean);
     EXPECT_NEAR(value_at(field, right), rooms.bright, 0.01f * rooms.bright);
@@ -57,7 +57,7 @@ TEST(AdjointField, HoldsTheMeanOfTheLightBehind) {
 TEST(AdjointField, WeighsVarianceByWork) {
     const Rooms rooms;
     constexpr float rays_per_sample = 8;
-    const AdjointField field(Roulette::Rule::efficiency, rooms.trials(), checkered(rays_per_sample));
+    const AdjointField field(Roulette::Rule::efficiency, rooms.trials(), {}, checkered(rays_per_sample));
     EXPECT_NEAR(field.rays_per_sample(), rays_per_sample, 1e-6);
     // Two samples of 0 and twice the level have the variance 2 level^2; a level is a mean without its brightest sample: of 18, 12 or 8.
     EXPECT_GT(field.relative_variance(), 2);
@@ -67,10 +67,28 @@ TEST(AdjointField, WeighsVarianceByWork) {
     EXPECT_NEAR(double(value_at(field, right)), double(rooms.bright) * scale, 0.01 * double(value_at(field, right)));
 }
 
+// Copies remove variance only: paths that always find the same light are not split.
+TEST(AdjointField, CountsCopiesByTheVarianceOfTheLight) {
+    const Rooms rooms;
+    const std::vector<ContinuationTrial> trials = rooms.trials();
+    const AdjointField field(Roulette::Rule::splitting, trials, trials, checkered(8));
+    const AdjointTables tables = field.tables(side, side);
+    ASSERT_TRUE(tables.splits);
+    const double scale = std::sqrt(8 / field.relative_variance());
+    constexpr double work = 0.5 + 0.3 + (1 + 0.3) * 5; // a vertex without its ray, then rays with shadow rays
+    const double copies = double(adjoint_split<float>(tables, left, up));
+    EXPECT_NEAR(copies, double(rooms.mean) / std::sqrt(work) * scale, 0.01 * copies);
+    EXPECT_LT(double(adjoint_split<float>(tables, right, up)), 0.05 * copies);
+    // Roulette is that of the efficiency rule, which does not split.
+    const AdjointField efficiency(Roulette::Rule::efficiency, trials, trials, checkered(8));
+    EXPECT_EQ(value_at(field, left), value_at(efficiency, left));
+    EXPECT_FALSE(efficiency.tables(side, side).splits);
+}
+
 TEST(AdjointField, ComparesWithTheLuminanceOfThePixel) {
     AdjointImage image{side, side, 1, {}, side * side};
     for (int k = 0; k < side * side; ++k) image.luminance.push_back(k / side < side / 2 ? 1.f : k % side < side / 2 ? 8.f : 0.f);
-    const AdjointField field(Roulette::Rule::adjoint, Rooms().trials(), image);
+    const AdjointField field(Roulette::Rule::adjoint, Rooms().trials(), {}, image);
     const AdjointTables tables = field.tables(4 * side, 2 * side);
     EXPECT_EQ(pixel_importance<float>(tables, 0.f, 0.f), 1);
     EXPECT_EQ(pixel_importance<float>(tables, float(4 * side - 1), 0.f), 1);
@@ -80,28 +98,28 @@ TEST(AdjointField, ComparesWithTheLuminanceOfThePixel) {
 }
 
 TEST(AdjointField, LearnsNothingWithoutLight) {
-    EXPECT_TRUE(AdjointField(Roulette::Rule::adjoint, {}, checkered(8)).empty());
+    EXPECT_TRUE(AdjointField(Roulette::Rule::adjoint, {}, {}, checkered(8)).empty());
     Rooms dark;
     dark.mean = dark.bright = 0;
-    EXPECT_TRUE(AdjointField(Roulette::Rule::adjoint, dark.trials(), checkered(8)).empty());
+    EXPECT_TRUE(AdjointField(Roulette::Rule::adjoint, dark.trials(), {}, checkered(8)).empty());
     AdjointImage black = checkered(8);
     for (float& v : black.luminance) v = 0;
-    EXPECT_TRUE(AdjointField(Roulette::Rule::efficiency, Rooms().trials(), black).empty());
+    EXPECT_TRUE(AdjointField(Roulette::Rule::efficiency, Rooms().trials(), {}, black).empty());
 }
 
 TEST(AdjointField, IgnoresWhatIsNotFinite) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     std::vector<ContinuationTrial> trials = Rooms().trials();
     AdjointImage image = checkered(8);
-    const AdjointField sound(Roulette::Rule::adjoint, trials, image);
+    const AdjointField sound(Roulette::Rule::adjoint, trials, {}, image);
     trials.push_back({left, up, nan, 1});
     trials.push_back({left, up, inf, 1});
     trials.push_back({{nan, 0, 0}, up, 1, 1});
     trials.push_back({{0, inf, 0}, up, 1, 1});
-    EXPECT_EQ(AdjointField(Roulette::Rule::adjoint, trials, image), sound);
+    EXPECT_EQ(AdjointField(Roulette::Rule::adjoint, trials, {}, image), sound);
     image.luminance[20] = nan;
     image.luminance[40] = inf;
-    const AdjointField learned(Roulette::Rule::efficiency, trials, image);
+    const AdjointField learned(Roulette::Rule::efficiency, trials, {}, image);
     EXPECT_TRUE(std::isfinite(learned.relative_variance()));
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) EXPECT_TRUE(std::isfinite(pixel_importance<float>(learned.tables(side, side), float(x), float(y))));
@@ -114,7 +132,7 @@ TEST(AdjointField, StaysFiniteForExtremeLight) {
         AdjointImage image = checkered(8);
         for (float& v : image.luminance) v *= unit;
         for (const Roulette::Rule rule : {Roulette::Rule::adjoint, Roulette::Rule::efficiency}) {
-            const AdjointTables tables = AdjointField(rule, trials, image).tables(side, side);
+            const AdjointTables tables = AdjointField(rule, trials, {}, image).tables(side, side);
             if (tables.empty()) continue; // nothing is learned, which is sound, too
             for (const float throughput : {0.f, 1e-30f, 1.f, 1e30f}) {
                 const float q = throughput * pixel_importance<float>(tables, 3.f, 5.f) * adjoint_value<float>(tables, left, up);
@@ -126,13 +144,13 @@ TEST(AdjointField, StaysFiniteForExtremeLight) {
 
 // Survival probabilities have no unit.
 TEST(AdjointField, DoesNotDependOnTheUnitsOfLightAndLength) {
-    const AdjointField field(Roulette::Rule::efficiency, Rooms().trials(), checkered(8));
+    const AdjointField field(Roulette::Rule::efficiency, Rooms().trials(), {}, checkered(8));
     for (const float unit : {0x1p-20f, 0x1p20f}) {
         std::vector<ContinuationTrial> trials = Rooms().trials();
         for (ContinuationTrial& t : trials) t = {t.position * unit, t.normal, t.radiance * unit, t.rays};
         AdjointImage image = checkered(8);
         for (float& v : image.luminance) v *= unit;
-        const AdjointField scaled(Roulette::Rule::efficiency, trials, image);
+        const AdjointField scaled(Roulette::Rule::efficiency, trials, {}, image);
         const auto survival = [&](const AdjointField& f, float metres) {
             return value_at(f, left * metres) * pixel_importance<float>(f.tables(side, side), 3.f, 5.f);
         };

@@ -137,7 +137,9 @@ TEST_P(Unbiased, AgreesWithoutRoulette) {
 INSTANTIATE_TEST_SUITE_P(AdjointPilot, Unbiased,
                          testing::Values(std::pair{"corridor", Rule::adjoint}, std::pair{"corridor", Rule::efficiency},
                                          std::pair{"cornell", Rule::adjoint}, std::pair{"cornell", Rule::efficiency},
-                                         std::pair{"veach-mis", Rule::efficiency}, std::pair{"prism", Rule::adjoint}));
+                                         std::pair{"veach-mis", Rule::efficiency}, std::pair{"prism", Rule::adjoint},
+                                         std::pair{"corridor", Rule::splitting}, std::pair{"cornell", Rule::splitting},
+                                         std::pair{"veach-mis", Rule::splitting}, std::pair{"prism", Rule::splitting}));
 
 TEST(AdjointPilot, DecidesOverAllSamplesButTheFirstFour) {
     const Scene scene = shipped_scene("corridor");

@@ -29,6 +29,7 @@ std::string formula(const Roulette& r) {
     case Roulette::Rule::automatic: q = "sqrt(max(beta))"; break;
     case Roulette::Rule::adjoint: q = "Y(beta) E[L] / I"; break;
     case Roulette::Rule::efficiency: q = "Y(beta) / I sqrt(E[L^2] / E[rays]) / sqrt(V / C)"; break;
+    case Roulette::Rule::splitting: q = "Y(beta) / I sqrt(E[L^2] / E[rays]) / sqrt(V / C)"; break;
     case Roulette::Rule::biased_cut:
         return fmt::format(
             "q = 1 if max(beta) >= {:.3g}, else 0, from bounce {} on, at smooth mirrors and glass from bounce {}. Survivors are not "
@@ -44,6 +45,8 @@ std::string formula(const Roulette& r) {
     const char* const otherwise =
         r.rule == Roulette::Rule::automatic
             ? " A learned rule or a later start replaces this where that pays: see Specialisation in the Render tab."
+        : r.rule == Roulette::Rule::splitting
+            ? " A path that arrives goes on in n = Y(beta) / I sqrt(V[L] / E[work]) / sqrt(V / C) copies, each with beta / n."
             : "";
     return fmt::format("q = {} from bounce {} on; survivors: beta / q. At smooth mirrors and glass q = 1 before bounce {}.{}", q, r.start,
                        std::max(r.start, first_rr_bounce_at_delta), otherwise);

@@ -3,16 +3,19 @@
 namespace blush {
 
 void draw_roulette_fields(Fields& f, Roulette& r) {
-    static constexpr const char* rules[] = {"Automatic",         "Off",      "Largest component", "Luminance",
-                                            "Square root",       "Constant", "Adjoint (learned)", "Efficiency (learned)",
-                                            "Biased cut (wrong)"};
+    static constexpr const char* rules[] = {"Automatic",           "Off",
+                                            "Largest component",   "Luminance",
+                                            "Square root",         "Constant",
+                                            "Adjoint (learned)",   "Efficiency (learned)",
+                                            "Splitting (learned)", "Biased cut (wrong)"};
     int rule = int(r.rule);
     if (f.choice("Roulette", rule, rules,
                  "Survival probability of a path after a bounce, as a function of its throughput. Survivors are weighted up, so "
                  "the result is unbiased. Automatic takes the square root, or a learned rule where that is worth it. Learned: a pilot "
                  "measures the light behind each place of the scene; adjoint ends paths that "
-                 "will add little to their pixel, efficiency those that cost more time than they save noise. The biased cut omits the "
-                 "weight and darkens the image, as a demonstration."))
+                 "will add little to their pixel, efficiency those that cost more time than they save noise; splitting also continues "
+                 "paths that "
+                 "save much noise in several copies. The biased cut omits the weight and darkens the image, as a demonstration."))
         r.rule = Roulette::Rule(rule);
     if (r.rule == Roulette::Rule::off) return;
     int64_t start = r.start;
