@@ -28,6 +28,7 @@ TEST(Roulette, ReadsWhatTheManualShows) {
     EXPECT_EQ(*parse_roulette("sqrt,start=3"), Roulette{});
     EXPECT_EQ(parse_roulette("off")->rule, Roulette::Rule::off);
     EXPECT_EQ(parse_roulette("luminance")->rule, Roulette::Rule::luminance);
+    EXPECT_EQ(parse_roulette("splitting")->rule, Roulette::Rule::splitting);
     EXPECT_EQ(parse_roulette("sqrt,start=0")->start, 0);
     const Roulette constant = *parse_roulette("constant=0.7,start=1,floor=0.05,cap=0.95");
     EXPECT_EQ(constant, (Roulette{Roulette::Rule::constant, 1, 0.05f, 0.95f, 0.7f, 0.1f}));
@@ -42,7 +43,7 @@ TEST(Roulette, TextRoundTrips) {
     std::uniform_real_distribution<float> u(0.001f, 1);
     for (int i = 0; i < 1000; ++i) {
         Roulette r;
-        r.rule = Roulette::Rule(rng() % 9);
+        r.rule = Roulette::Rule(rng() % 10);
         r.start = int(rng() % 10);
         if (rng() % 2) r.cap = u(rng);
         if (rng() % 2) r.floor = r.cap * u(rng);
@@ -59,9 +60,11 @@ TEST(Roulette, BadTextIsRefusedWithTheReason) {
         const Result<Roulette> r = parse_roulette(text);
         return r ? "accepted" : r.error().text();
     };
-    EXPECT_EQ(error("often"),
-              "unknown roulette rule \"often\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, biased-cut)");
-    EXPECT_EQ(error(""), "unknown roulette rule \"\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, biased-cut)");
+    EXPECT_EQ(
+        error("often"),
+        "unknown roulette rule \"often\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, splitting, biased-cut)");
+    EXPECT_EQ(error(""),
+              "unknown roulette rule \"\" (known: auto, off, max, luminance, sqrt, constant, adjoint, efficiency, splitting, biased-cut)");
     EXPECT_EQ(error("constant"), "roulette rule constant needs a number, as in constant=0.5");
     EXPECT_EQ(error("max=1"), "roulette rule max takes no number");
     EXPECT_EQ(error("constant=0"), "roulette's constant must be a number above 0 and at most 1, not \"0\"");
