@@ -47,8 +47,8 @@ void count_copies(const KernelContext& context, const TileScratch& scratch, cons
     }
 }
 
-// Splits the paths whose rays were traced. Copies follow at the end of the queue. No sample has more than most_copies paths; the tile must
-// have room for so many of each. `alive`, `copies`: scratch memory.
+// Splits the paths whose rays were traced. Copies follow at the end of the queue. No sample has more than most_copies paths. The tile must
+// have room for so many of each (tile_shape.h); a path that finds none is not split, so nothing is written past the columns.
 template <Features S, class F>
 [[gnu::noinline]] void split_paths(const KernelContext& context, TileScratch& scratch, PathQueue& q, int bounce) {
     if (!scratch.splitting) scratch.splitting = std::make_unique<SplittingColumns>();

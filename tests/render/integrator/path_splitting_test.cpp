@@ -22,7 +22,7 @@ RenderSettings settings_of(Rule rule, int width = 32, int height = 18, int64_t s
     return settings;
 }
 
-// What copies must carry along: panes, blended surfaces, textures, a light tree, links, and lamps that paths may hit.
+// Panes, blended surfaces, textures, and lamps of which paths may hit one: what copies must carry along for them.
 Scene furnished_room() {
     Scene scene;
     place(scene, cube(true), lambert({0.7f, 0.6f, 0.5f}), at({0, 1, 0}, 1));
