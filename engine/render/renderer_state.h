@@ -200,6 +200,7 @@ struct Renderer::State {
     bool add_replacement_passes(int64_t first, int64_t count, const Wanted& wanted);
     void add_replacement(const TileJob& job, TileScratch& tile, unsigned worker);
     bool needs_highlights() const;
+    bool find_edges_and_highlights(const KernelContext& context, const Wanted& wanted);
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     void collect_counts(const TickRate& rate);
     bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }

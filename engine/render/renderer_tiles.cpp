@@ -132,8 +132,8 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
 void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
     KernelContext context = context_for(scene.tables(), film.width(), film.height());
     context.seed = settings.seed;
-    context.settings.reuse = {};
-    context.settings.max_bounces = 0;
+    SceneTables tables;
+    render_emission_only(context, tables, pixels.longest_chain());
     constexpr TileShape shape{32, 32, 1};
     for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
         if (!pixels.any(job.x, job.y, job.width, job.height)) return true;
@@ -183,23 +183,32 @@ bool Renderer::State::decide(int64_t samples, const Wanted& wanted) {
     const KernelContext context = context_for(tables, settings.width, settings.height);
     if (!learned.decide(samples, context, *kernel, workers, replays, wanted)) return false;
     tables = learned.tables(scene.tables(), 1);
-    if (edges.needs_pilot()) {
-        auto found = find_edge_pixels(context, *kernel, workers, replays, wanted);
-        if (!found) return false;
-        edges.decide(*std::move(found));
-    }
-    if (needs_highlights()) {
-        highlights = find_small_highlights(context, workers, replays, wanted);
-        if (!highlights) return false;
-    }
+    if ((edges.needs_pilot() || needs_highlights()) && !find_edges_and_highlights(context, wanted)) return false;
     kernel_name = name_of(kernel_for(tables));
     info.reset();
     feature_report.reset();
     return true;
 }
 
-// Only where lamps with a size may be seen in smooth surfaces.
-bool Renderer::State::needs_highlights() const { return !highlights && scene.has_smooth_surfaces() && scene.tables().lights.count > 0; }
+bool Renderer::State::needs_highlights() const { return !highlights && scene.may_have_highlights(); }
+
+bool Renderer::State::find_edges_and_highlights(const KernelContext& context, const Wanted& wanted) {
+    std::optional<Sightings> sightings = Sightings{};
+    if (needs_highlights() || (edges.needs_pilot() && edges.longest_chain() > 0))
+        sightings = find_small_highlights(context, workers, replays, wanted);
+    if (!sightings) return false;
+    if (!edges.needs_pilot() || edges.longest_chain() == 0) {
+        if (needs_highlights()) highlights = highlights_of(*sightings);
+        sightings = Sightings{};
+    }
+    if (!edges.needs_pilot()) return true;
+    auto found =
+        find_edge_pixels(context, {kernel_for(*context.scene), *kernel}, edges.longest_chain(), *sightings, workers, replays, wanted);
+    if (!found) return false;
+    edges.decide(std::move(found->pixels));
+    if (needs_highlights()) highlights = found->highlights;
+    return true;
+}
 
 bool Renderer::decide(const std::function<bool()>& wanted, int64_t samples) { return state_->decide(samples, wanted); }
 

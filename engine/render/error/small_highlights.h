@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
+#include "render/film/edge_pixels.h"
 
 #include <array>
 #include <cstdint>
@@ -19,15 +20,19 @@ struct SmallHighlights {
         bool operator==(const Band&) const = default;
     };
     static constexpr int first_octave = -16, num_bands = 64; // a band an octave
-    std::array<Band, num_bands> bands;
+    // Those of ordinary pixels, and of pixels that take `highlight_samples` and `bright_highlight_samples` samples of them for each sample
+    // (edge_pixels.h).
+    static constexpr std::array samples_of_set{1, highlight_samples, bright_highlight_samples};
+    std::array<Band, samples_of_set.size() * num_bands> bands;
 
-    // The band of light that adds this luminance to a sample, nits.
-    Band& of(double luminance);
+    // The band of light that adds this luminance to a sample, nits, in pixels that take so many samples of it: one of `samples_of_set`.
+    Band& of(double luminance, int samples = 1);
+    void add(double luminance, const Band& light, int samples = 1);
     bool operator==(const SmallHighlights&) const = default;
 
     // True if highlights that the samples of an image have hardly met may be a large part of its squared error. `samples`: per pixel;
     // `squares`: estimated sum of the squared errors of pixels and channels. A band is hardly met if fewer than 20 samples are expected
-    // to; its light is taken to lie in as many pixels as it covers, or in one.
+    // to, of the emission where a pixel takes more of these; its light is taken to lie in as many pixels as it covers, or in one.
     bool may_be_missed(double samples, int64_t pixels, double squares) const;
 };
 

@@ -1,23 +1,34 @@
-// A set of pixels of a film: those at edges of visible emitters (edge_pilot.h).
+// The pixels of a film that get more samples of the emission that the camera sees: those at edges of emitters, and those with highlights of
+// lamps (edge_pilot.h).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace blush {
 
-// A bitmap; empty without pixels.
+// Emission samples per sample of a pixel: at an edge; with a highlight, which may cover a hundredth of it; with a bright one.
+constexpr int edge_samples = 16, highlight_samples = 64, bright_highlight_samples = 512;
+// Delta lobes between camera and lamp, for highlights.
+constexpr int longest_highlight_chain = 8;
+
+// A number for each pixel; empty without pixels.
 class EdgePixels {
 public:
     EdgePixels() = default;
-    EdgePixels(int width, int height) : width_(width), bits_(size_t(width) * size_t(height)) {}
+    // `longest_chain`: of delta lobes between the camera and the emission; 0: only emission that is seen directly.
+    EdgePixels(int width, int height, int longest_chain = 0)
+        : width_(width), longest_chain_(longest_chain), samples_(size_t(width) * size_t(height)) {}
 
-    void add(int x, int y) {
-        if (!bits_[place(x, y)]) ++count_;
-        bits_[place(x, y)] = true;
+    void add(int x, int y, int samples = edge_samples) {
+        uint16_t& of = samples_[place(x, y)];
+        of = std::max(of, uint16_t(samples));
     }
-    bool has(int x, int y) const { return count_ > 0 && bits_[place(x, y)]; }
+    // Emission samples per sample; 0: none.
+    int samples(int x, int y) const { return samples_.empty() ? 0 : samples_[place(x, y)]; }
+    bool has(int x, int y) const { return samples(x, y) > 0; }
     // In a rectangle.
     bool any(int x, int y, int width, int height) const {
         for (int v = y; v < y + height; ++v)
@@ -25,15 +36,19 @@ public:
                 if (has(u, v)) return true;
         return false;
     }
-    int64_t count() const { return count_; }
+    // With so many samples.
+    int64_t count(int samples) const { return std::ranges::count(samples_, uint16_t(samples)); }
+    bool empty() const {
+        return std::ranges::all_of(samples_, [](uint16_t of) { return of == 0; });
+    }
+    int longest_chain() const { return longest_chain_; }
     bool operator==(const EdgePixels&) const = default;
 
 private:
     size_t place(int x, int y) const { return size_t(y) * size_t(width_) + size_t(x); }
 
-    int width_ = 0;
-    int64_t count_ = 0;
-    std::vector<bool> bits_;
+    int width_ = 0, longest_chain_ = 0;
+    std::vector<uint16_t> samples_;
 };
 
 } // namespace blush

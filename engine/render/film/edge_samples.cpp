@@ -22,28 +22,51 @@ template <class Columns> Vec3d mean_of(const Columns& c, int slot, int count) {
     return sum * (1.0 / count);
 }
 
-// The difference with the old emission is not negative: the radiance is a sum that began with it.
+// The radiance is a sum that contains the old emission, so the difference is negative by rounding only.
 template <class Columns> void replace(Columns& c, int slot, const Vec3d& before, const Vec3d& now) {
-    c.r[slot] = c.r[slot] - before.x + now.x;
-    c.g[slot] = c.g[slot] - before.y + now.y;
-    c.b[slot] = c.b[slot] - before.z + now.z;
+    c.r[slot] = std::max(0.0, c.r[slot] - before.x) + now.x;
+    c.g[slot] = std::max(0.0, c.g[slot] - before.y) + now.y;
+    c.b[slot] = std::max(0.0, c.b[slot] - before.z) + now.z;
 }
 
-void fit_groups(const TileScratch& tile, TileScratch& emission) {
+// Gives the emission the planes of the tile.
+void fit_planes(const TileScratch& tile, TileScratch& emission) {
     if (!tile.groups)
         emission.groups.reset();
     else if (!emission.groups || emission.groups->count() != tile.groups->count())
         emission.groups = std::make_unique<GroupColumns>(tile.groups->count(), false);
+    if (!tile.bounces)
+        emission.bounces.reset();
+    else if (!emission.bounces || emission.bounces->after.size() != tile.bounces->after.size())
+        emission.bounces = std::make_unique<BounceColumns>(int(tile.bounces->after.size()));
 }
 
-// One sample of a tile: `own_slot` and `more_slot` are those of its emission.
-void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, int own_slot, int more_slot) {
+// Light of at most `bounce` scatterings.
+Vec3d mean_after(const TileScratch& emission, int bounce, int slot, int count) {
+    if (bounce >= emission.bounces->recorded) return mean_of(emission, slot, count);
+    return mean_of(emission.bounces->after[size_t(bounce)], slot, count);
+}
+
+// The columns of bounces that no path of the tile has reached: its more samples may.
+void record_all_bounces(TileScratch& tile, int paths) {
+    BounceColumns& bounces = *tile.bounces;
+    for (; bounces.recorded < int(bounces.after.size()); ++bounces.recorded)
+        copy_radiance(tile.r, tile.g, tile.b, paths, bounces.after[size_t(bounces.recorded)]);
+}
+
+// Slots of emission samples that belong to a sample of the tile.
+struct EmissionSlots {
+    int own, more, count;
+};
+
+void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, const EmissionSlots& at) {
     const TileScratch &own = scratch.own, &more = scratch.more;
-    const Vec3d before = mean_of(own, own_slot, 1), now = mean_of(more, more_slot, edge_samples);
+    const Vec3d before = mean_of(own, at.own, 1), now = mean_of(more, at.more, at.count);
     if (!is_valid(before) || !is_valid(now)) return;
     replace(tile, slot, before, now);
     if (tile.bounces)
-        for (int k = 0; k < tile.bounces->recorded; ++k) replace(tile.bounces->after[size_t(k)], slot, before, now);
+        for (int k = 0; k < tile.bounces->recorded; ++k)
+            replace(tile.bounces->after[size_t(k)], slot, mean_after(own, k, at.own, 1), mean_after(more, k, at.more, at.count));
     if (tile.strategies) {
         GroupColumns& light = tile.strategies->light;
         constexpr auto hit = size_t(FoundBy::camera_hit);
@@ -52,31 +75,30 @@ void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, int 
     }
     if (!tile.groups) return;
     for (size_t k = 0; k < tile.groups->all.size(); ++k) {
-        const Vec3d group_before = mean_of(own.groups->all[k], own_slot, 1),
-                    group_now = mean_of(more.groups->all[k], more_slot, edge_samples);
+        const Vec3d group_before = mean_of(own.groups->all[k], at.own, 1), group_now = mean_of(more.groups->all[k], at.more, at.count);
         replace(tile.groups->all[k], slot, group_before, group_now);
         if (tile.groups->has_direct && !tile.groups->direct.empty()) replace(tile.groups->direct[k], slot, group_before, group_now);
     }
 }
 
-// Pixels [x, x + width) of a row of a tile.
+// Pixels [x, x + width) of a row of a tile, with so many emission samples for each sample.
 struct Run {
-    int x, y, width;
+    int x, y, width, emission_samples;
 };
 
 // For its samples `first`, `first` + step, ... of the tile, which are in one half of the film.
 void refine_half(const KernelContext& context, const Kernel& kernel, const Run& run, const TileJob& job, int first, int step,
                  TileScratch& tile, EdgeScratch& scratch) {
-    const int count = (job.samples - first + step - 1) / step;
+    const int count = (job.samples - first + step - 1) / step, each = run.emission_samples;
     const int64_t sample = job.sample(first), half = sample & 1;
     KernelContext apart = context;
     apart.seed ^= edge_seed;
-    const TileJob more{run.x, run.y, run.width, 1, 2 * (sample >> 1) * edge_samples + half, count * edge_samples, 2};
+    const TileJob more{run.x, run.y, run.width, 1, 2 * (sample >> 1) * each + half, count * each, 2};
     kernel.render(apart, more, scratch.more);
     for (int x = 0; x < run.width; ++x)
         for (int k = 0; k < count; ++k) {
             const int s = first + k * step, pixel = (run.y - job.y) * job.width + run.x - job.x + x;
-            refine_sample(tile, pixel * job.samples + s, scratch, x * job.samples + s, (x * count + k) * edge_samples);
+            refine_sample(tile, pixel * job.samples + s, scratch, {x * job.samples + s, (x * count + k) * each, each});
         }
 }
 
@@ -94,19 +116,29 @@ void refine_run(const KernelContext& context, const Kernel& kernel, const Run& r
 
 } // namespace
 
+void render_emission_only(KernelContext& context, SceneTables& tables, int longest_chain) {
+    tables = *context.scene;
+    tables.emission = {};
+    tables.manifolds = {};
+    context.scene = &tables;
+    context.settings.max_bounces = std::min(context.settings.max_bounces, longest_chain);
+    context.settings.emission_only = true;
+    context.settings.reuse = {};
+}
+
 void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,
                      EdgeScratch& scratch) {
-    if (pixels.count() == 0) return;
-    context.settings.max_bounces = 0;
-    context.settings.reuse = {};
-    fit_groups(tile, scratch.own);
-    fit_groups(tile, scratch.more);
-    const int longest = std::max(1, tile_capacity / (job.samples * edge_samples));
+    if (!pixels.any(job.x, job.y, job.width, job.height)) return;
+    SceneTables tables;
+    render_emission_only(context, tables, pixels.longest_chain());
+    fit_planes(tile, scratch.own);
+    fit_planes(tile, scratch.more);
+    if (tile.bounces) record_all_bounces(tile, job.paths());
     for (int y = job.y; y < job.y + job.height; ++y)
         for (int x = job.x; x < job.x + job.width; ++x) {
-            const int begin = x;
-            while (x < job.x + job.width && x - begin < longest && pixels.has(x, y)) ++x;
-            if (x > begin) refine_run(context, kernel, {begin, y, x-- - begin}, job, tile, scratch);
+            const int begin = x, each = pixels.samples(x, y), longest = each ? std::max(1, tile_capacity / (job.samples * each)) : 0;
+            while (x < job.x + job.width && x - begin < longest && pixels.samples(x, y) == each) ++x;
+            if (x > begin) refine_run(context, kernel, {begin, y, x-- - begin, each}, job, tile, scratch);
         }
     for (TileScratch* used : {&scratch.own, &scratch.more}) {
         const StageTicks spent = std::exchange(used->stages, {});

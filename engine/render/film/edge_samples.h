@@ -1,4 +1,4 @@
-// More camera rays for the emission that is seen directly, in pixels at edges of emitters.
+// More samples of the emission that the camera sees, directly or by delta lobes alone, in pixels at edges of emitters and with highlights.
 #pragma once
 
 #include "render/film/edge_pixels.h"
@@ -8,28 +8,31 @@
 
 namespace blush {
 
-// Emission samples per sample of a pixel at an edge.
-constexpr int edge_samples = 16;
-
 // Per-worker memory.
 struct EdgeScratch {
     TileScratch own, more;
 };
 
-// Replaces, in each sample of a tile in `pixels`, the emission at the first hit by the mean of `edge_samples` of its own:
+// Replaces, in each sample of a tile in `pixels`, the emission at the end of a chain of delta lobes by the mean of M of its own, M being
+// `pixels.samples()`:
 //
 //     radiance - e0 + (e1 + ... + eM) / M
 //
-// e0 is the emission that the sample's own camera ray has found, so the mean stays the same. All of them are renders without
-// scattering. e0 has the seed and the index of the sample. The others have a seed of their own, and those of all samples of a half of
-// the film are one sequence of the sampler; so the halves stay independent, and a sample is the same in any range in which it is
-// rendered.
+// e0 is the emission that the sample's own path has found, so the mean stays the same. All of them are renders of emission alone
+// (`emission_only`), of at most `pixels.longest_chain()` scatterings. e0 has the seed and the index of the sample. The others have a seed
+// of their own, and those of all samples of a half of the film are one sequence of the sampler; so the halves stay independent, and a
+// sample is the same in any range in which it is rendered.
 //
 // Its rays are not counted: the number of camera rays is that of paths.
 //
 // Light groups, light by bounces and what camera rays hit get the same difference as the radiance; first hits stay those of the sample's
 // own ray. A sample stays as it is if one of its emission samples is negative or not finite.
+// `context`: of the samples. `kernel`: with all features that they need but light paths.
 void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,
                      EdgeScratch& scratch);
+
+// Makes `context` that of renders of emission alone. `tables` receives those of its scene, without light paths and manifold sampling, which
+// do not find this light.
+void render_emission_only(KernelContext& context, SceneTables& tables, int longest_chain);
 
 } // namespace blush

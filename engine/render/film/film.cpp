@@ -246,7 +246,7 @@ void Film::add_to_first_sample(const TileJob& job, const TileScratch& tile, cons
         if (!pixels.has(x, y) || half.count == 0) continue;
         const auto add = [&](ExactSum3& sum, const auto& c) { sum.add(Vec3d{c.r[slot], c.g[slot], c.b[slot]} * sign); };
         add(half.sum, tile);
-        if (bounces_.planes() > 0) add(bounces_.sum(place_of(pixel, 0), 0), tile);
+        if (bounces_.planes() > 0) bounces_.add(place_of(pixel, 0), tile, slot, 0, sign);
         if (strategies_.groups() > 0) add(strategies_.sum(pixel, 0, size_t(FoundBy::camera_hit)), tile);
         for (int k = 0; k < groups_.groups(); ++k) add(groups_.sum(pixel, 0, size_t(k)), tile.groups->all[size_t(k)]);
     }

@@ -161,6 +161,10 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         load_importance<F>(scratch, *context.scene, path, active);
         Step<F> step =
             scatter<S, F>(*context.scene, context.settings, path, load_hit<F>(scratch.hits, k), bounce, active, light_timer.next());
+        if (context.settings.emission_only) {
+            step.connects = Mask<F>(false);
+            step.continues = step.continues && step.next.pdf == F(infinity);
+        }
         Mask<F> straight = Mask<F>(true); // the path's ray passed no pane
         if constexpr (S.has(Feature::transmission))
             if (context.scene->panes) straight = as_mask(load<Int<F>>(scratch.panes->passed + k) == 0);

@@ -1,7 +1,6 @@
 #include "render/pilots/edge_choice.h"
 
 #include "render/compile/render_scene.h"
-#include "render/film/edge_samples.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +10,7 @@ namespace {
 // Why smooth edges cannot gain anything or do not fit the image; null if they may.
 const char* why_useless(const RenderSettings& settings, const RenderScene& scene, bool transparent) {
     if (!settings.smooth_edges) return "switched off";
-    if (!scene.camera_sees_emission()) return "the camera sees no light source";
+    if (!scene.camera_sees_emission() && !scene.may_have_highlights()) return "the camera sees no light source";
     if (settings.max_bounces == 0) return "paths end at their first hit";
     // Coverage, and what is behind a shadow catcher, belong to the sample's own camera ray.
     if (transparent) return "the background is transparent";
@@ -24,19 +23,32 @@ const char* why_useless(const RenderSettings& settings, const RenderScene& scene
 } // namespace
 
 EdgeChoice::EdgeChoice(const RenderSettings& settings, const RenderScene& scene, bool transparent)
-    : useless_(why_useless(settings, scene, transparent)) {}
+    : useless_(why_useless(settings, scene, transparent)) {
+    // The clamped mean of a highlight is not the mean of clamped samples, and copies of a split path are no sample that could be repeated.
+    if (scene.may_have_highlights() && !(settings.clamp.limit > 0) && settings.roulette.rule != Roulette::Rule::splitting)
+        longest_chain_ = longest_highlight_chain;
+}
 
 FeatureUse EdgeChoice::report() const {
-    FeatureUse use{.part = "film", .name = "smooth edges", .used = !useless_ && !(pixels_ && pixels_->count() == 0), .why = {}};
+    FeatureUse use{.part = "film", .name = "smooth edges", .used = !useless_ && !(pixels_ && pixels_->empty()), .why = {}};
     if (useless_)
         use.why = useless_;
     else if (!pixels_)
         use.why = "a pilot finds the pixels after the first sample";
-    else if (pixels_->count() == 0)
+    else if (pixels_->empty())
         use.why = "pilot: the edges of visible light sources have too small a share of the noise";
-    else
-        use.why =
-            fmt::format("pilot: {} pixels at edges of visible light sources, {} camera rays a sample", pixels_->count(), edge_samples);
+    else {
+        std::string pixels;
+        const auto add = [&](const char* text, int samples) {
+            if (const int64_t count = pixels_->count(samples); count > 0)
+                pixels +=
+                    fmt::format("{}{} pixels {} a sample", pixels.empty() ? "" : "; ", count, fmt::format(fmt::runtime(text), samples));
+        };
+        add("at edges of visible light sources, {} camera rays", edge_samples);
+        add("with highlights of lamps in smooth surfaces, {} paths", highlight_samples);
+        add("with bright highlights, {} paths", bright_highlight_samples);
+        use.why = "pilot: " + pixels;
+    }
     return use;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace blush {
@@ -35,47 +36,68 @@ struct Samples {
 struct Noise {
     double mse = 0, relmse = 0, work = 0;
 
-    // True if a fall of a pixel's variance is worth M + 1 more camera rays for each sample.
-    bool is_worth(double gain, double mean) const {
+    // True if a fall of a pixel's variance is worth so many more rays for each sample.
+    bool is_worth(double gain, double mean, double rays) const {
         const double relative_gain = gain / (mean * mean + dark_squared);
-        return gain > 0 && gain / mse + relative_gain / relmse > 2 * (edge_samples + 1) / work;
+        return gain > 0 && gain / mse + relative_gain / relmse > 2 * rays / work;
     }
 };
 
+// Samples of a pixel near a sighting.
+struct MeasuredPixel {
+    int x = 0, y = 0;
+    double sum = 0, squares = 0, low = std::numeric_limits<double>::infinity(), high = 0, rays = 0;
+    std::vector<std::pair<double, Vec3d>> met; // luminance and radiance of those that met light behind smooth surfaces
+};
+constexpr int measured_samples = 128;
+constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured = 64;
+
 class Pilot {
 public:
-    Pilot(const KernelContext& context, const Kernel& kernel, const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-          const std::function<bool()>& wanted)
-        : context_(context), kernel_(kernel), workers_(workers), scratch_(scratch), wanted_(wanted) {
+    Pilot(const KernelContext& context, const EdgeKernels& kernels, int longest_chain, const Workers& workers,
+          std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted)
+        : context_(context), kernels_(kernels), workers_(workers), scratch_(scratch), wanted_(wanted) {
         context_.seed = edge_pilot_seed;
+        chains_ = context_;
+        render_emission_only(chains_, tables_, longest_chain);
+        emission_ = chains_;
+        emission_.settings.max_bounces = 0;
         context_.settings.reuse = {};
         context_.settings.max_bounces = pilot_max_bounces;
-        emission_ = context_;
-        emission_.settings.max_bounces = 0;
         for (auto& s : scratch_)
             if (!s) s = std::make_unique<TileScratch>();
     }
 
-    std::optional<EdgePixels> find();
+    std::optional<EdgesFound> find(const Sightings& sightings);
 
 private:
-    bool render(KernelContext context, int divider, int per_pixel, Samples& to);
+    bool render(KernelContext context, const Kernel& kernel, int divider, int per_pixel, Samples& to);
     bool render_coarse();
     // Mean light R of paths that found no emission, near a pixel.
     double other_light(int x, int y) const;
     bool is_edge(int x, int y, TileScratch& scratch) const;
+    bool find_edges(EdgePixels& pixels);
+    void choose_measured(const Sightings& sightings);
+    void measure(MeasuredPixel& pixel, TileScratch& scratch) const;
+    // How many samples of its emission pay; 0: none.
+    int highlight_samples_of(const MeasuredPixel& pixel) const;
+    bool find_highlights(const Sightings& sightings, EdgesFound& found);
+    const MeasuredPixel* measured_at(int x, int y) const;
 
-    KernelContext context_, emission_;
-    const Kernel& kernel_;
+    KernelContext context_, chains_, emission_;
+    SceneTables tables_; // of the emission
+    EdgeKernels kernels_;
     const Workers& workers_;
     std::vector<std::unique_ptr<TileScratch>>& scratch_;
     const std::function<bool()>& wanted_;
     Samples seen_;              // emission of the film
     Samples paths_, emissions_; // of the coarse image
     Noise noise_;
+    std::vector<MeasuredPixel> measured_;
+    std::vector<int32_t> place_; // by pixel: in `measured_`; -1: none
 };
 
-bool Pilot::render(KernelContext context, int divider, int per_pixel, Samples& to) {
+bool Pilot::render(KernelContext context, const Kernel& kernel, int divider, int per_pixel, Samples& to) {
     to.width = std::max(1, int(context.settings.width) / divider);
     to.height = std::max(1, int(context.settings.height) / divider);
     to.per_pixel = per_pixel;
@@ -87,7 +109,7 @@ bool Pilot::render(KernelContext context, int divider, int per_pixel, Samples& t
         TileJob tile{.x = int(i % across) * tile_side, .y = int(i / across) * tile_side, .samples = per_pixel};
         tile.width = std::min(tile_side, to.width - tile.x);
         tile.height = std::min(tile_side, to.height - tile.y);
-        kernel_.render(context, tile, *scratch_[worker]);
+        kernel.render(context, tile, *scratch_[worker]);
         const int row = tile.width * per_pixel;
         for (int y = 0; y < tile.height; ++y)
             for (int k = 0; k < row; ++k)
@@ -98,10 +120,10 @@ bool Pilot::render(KernelContext context, int divider, int per_pixel, Samples& t
 
 bool Pilot::render_coarse() {
     for (const auto& s : scratch_) s->camera_rays = s->bounce_rays = s->shadow_rays = 0;
-    if (!render(context_, coarse_divider, coarse_samples, paths_)) return false;
+    if (!render(context_, kernels_.paths, coarse_divider, coarse_samples, paths_)) return false;
     for (const auto& s : scratch_)
         noise_.work += double(s->camera_rays) + double(s->bounce_rays) + shadow_ray_cost * double(s->shadow_rays);
-    if (!render(emission_, coarse_divider, coarse_samples, emissions_)) return false;
+    if (!render(chains_, kernels_.emission, coarse_divider, coarse_samples, emissions_)) return false;
     const double pixels = double(paths_.width) * double(paths_.height);
     noise_.work /= coarse_samples * pixels;
     for (int y = 0; y < paths_.height; ++y)
@@ -137,8 +159,9 @@ bool Pilot::is_edge(int x, int y, TileScratch& scratch) const {
     if (low == high) return false;
     const double other = other_light(x, y);
     // No more variance than this is possible: half of the pixel each.
-    if (!noise_.is_worth((high - low) * (high - low) / 4, low + other)) return false;
-    kernel_.render(emission_, {.x = x, .y = y, .width = 1, .height = 1, .first_sample = 2, .samples = pixel_samples}, scratch);
+    constexpr double rays = edge_samples + 1;
+    if (!noise_.is_worth((high - low) * (high - low) / 4, low + other, rays)) return false;
+    kernels_.emission.render(emission_, {.x = x, .y = y, .width = 1, .height = 1, .first_sample = 2, .samples = pixel_samples}, scratch);
     // Both sides count once more than they were found (rule of succession): samples easily miss a side of low coverage.
     double sum = low + high, squares = low * low + high * high;
     for (int k = 0; k < pixel_samples; ++k) {
@@ -147,30 +170,134 @@ bool Pilot::is_edge(int x, int y, TileScratch& scratch) const {
         squares += l * l;
     }
     const double mean = sum / (pixel_samples + 2), variance = squares / (pixel_samples + 2) - mean * mean;
-    return noise_.is_worth(variance * (1 - 1.0 / edge_samples - 2 * other / (high - low)), mean + other);
+    return noise_.is_worth(variance * (1 - 1.0 / edge_samples - 2 * other / (high - low)), mean + other, rays);
 }
 
-std::optional<EdgePixels> Pilot::find() {
-    if (!render(emission_, 1, 1, seen_)) return std::nullopt;
-    if (std::ranges::all_of(seen_.luminance, [&](double l) { return l == seen_.luminance[0]; })) return EdgePixels{};
-    if (!render_coarse()) return std::nullopt;
+bool Pilot::find_edges(EdgePixels& pixels) {
     std::vector<uint8_t> found(seen_.luminance.size()); // bits of a bitmap share words
     const bool all = workers_.for_each(seen_.height, wanted_, [&](int64_t y, unsigned worker) {
         for (int x = 0; x < seen_.width; ++x) found[size_t(y) * size_t(seen_.width) + size_t(x)] = is_edge(x, int(y), *scratch_[worker]);
     });
-    if (!all) return std::nullopt;
-    EdgePixels edges(seen_.width, seen_.height);
     for (int y = 0; y < seen_.height; ++y)
         for (int x = 0; x < seen_.width; ++x)
-            if (found[size_t(y) * size_t(seen_.width) + size_t(x)]) edges.add(x, y);
-    return edges;
+            if (found[size_t(y) * size_t(seen_.width) + size_t(x)]) pixels.add(x, y);
+    return all;
+}
+
+const MeasuredPixel* Pilot::measured_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= seen_.width || y >= seen_.height) return nullptr;
+    const int32_t place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
+    return place < 0 ? nullptr : &measured_[size_t(place)];
+}
+
+// The pixels around each sighting, as far as the next path that looked for them: nearest lamps first, while there are not too many pixels.
+void Pilot::choose_measured(const Sightings& sightings) {
+    place_.assign(size_t(seen_.width) * size_t(seen_.height), -1);
+    const auto most = size_t(std::clamp(int(place_.size()) / pixels_per_measured, fewest_measured, most_measured));
+    const int reach = int(std::ceil(sightings.spacing));
+    std::vector<Sighting> nearest = sightings.all;
+    std::ranges::stable_sort(nearest, {}, &Sighting::apart);
+    for (const Sighting& s : nearest)
+        for (int y = std::max(0, s.y - reach); y <= std::min(seen_.height - 1, s.y + reach); ++y)
+            for (int x = std::max(0, s.x - reach); x <= std::min(seen_.width - 1, s.x + reach); ++x) {
+                int32_t& place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
+                if (place >= 0 || measured_.size() == most) continue;
+                place = int32_t(measured_.size());
+                measured_.push_back({.x = x, .y = y});
+            }
+}
+
+void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
+    const int64_t before = scratch.camera_rays + scratch.bounce_rays;
+    scratch.bounces = std::make_unique<BounceColumns>(1); // to tell emission that is seen directly
+    kernels_.emission.render(chains_, {.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .samples = measured_samples}, scratch);
+    pixel.rays = double(scratch.camera_rays + scratch.bounce_rays - before) / measured_samples;
+    const RadianceColumns& seen = scratch.bounces->after[0];
+    for (int k = 0; k < measured_samples; ++k) {
+        const double l = luminance_in(scratch, k);
+        pixel.sum += l;
+        pixel.squares += l * l;
+        pixel.low = std::min(pixel.low, l);
+        pixel.high = std::max(pixel.high, l);
+        const Vec3d behind{scratch.r[k] - seen.r[k], scratch.g[k] - seen.g[k], scratch.b[k] - seen.b[k]};
+        if (const double met = luminance(behind); met > 0 && std::isfinite(met)) pixel.met.push_back({met, behind});
+    }
+    scratch.bounces.reset();
+}
+
+int Pilot::highlight_samples_of(const MeasuredPixel& pixel) const {
+    double low = pixel.low, high = pixel.high;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+            if (const MeasuredPixel* near = measured_at(x, y)) {
+                low = std::min(low, near->low);
+                high = std::max(high, near->high);
+            }
+    if (low == high) return 0;
+    const double n = measured_samples + 2, mean = (pixel.sum + low + high) / n,
+                 variance = (pixel.squares + low * low + high * high) / n - mean * mean, other = other_light(pixel.x, pixel.y);
+    const auto pays = [&](double share_of_variance, int samples) {
+        return noise_.is_worth(variance * share_of_variance, mean + other, samples * pixel.rays);
+    };
+    constexpr double few = highlight_samples, many = bright_highlight_samples;
+    if (!pays(1 - 1 / few - 2 * other / (high - low), highlight_samples + 1)) return 0;
+    return pays(1 / few - 1 / many, bright_highlight_samples - highlight_samples) ? bright_highlight_samples : highlight_samples;
+}
+
+bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
+    choose_measured(sightings);
+    if (!workers_.for_each(int64_t(measured_.size()), wanted_,
+                           [&](int64_t i, unsigned worker) { measure(measured_[size_t(i)], *scratch_[worker]); }))
+        return false;
+    // Pixels of a connected region see the same lamp: sightings there are replaced by what its pixels met.
+    std::vector<bool> met(measured_.size()), visited(measured_.size());
+    for (size_t first = 0; first < measured_.size(); ++first) {
+        if (visited[first]) continue;
+        std::vector<size_t> region{first};
+        visited[first] = true;
+        bool any = false;
+        for (size_t k = 0; k < region.size(); ++k) {
+            const MeasuredPixel& pixel = measured_[region[k]];
+            any = any || !pixel.met.empty();
+            for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+                for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+                    if (const MeasuredPixel* near = measured_at(x, y); near && !visited[size_t(near - measured_.data())]) {
+                        visited[size_t(near - measured_.data())] = true;
+                        region.push_back(size_t(near - measured_.data()));
+                    }
+        }
+        for (const size_t k : region) met[k] = any;
+    }
+    const double share = 1 / (double(place_.size()) * measured_samples);
+    for (const MeasuredPixel& pixel : measured_) {
+        const int samples = highlight_samples_of(pixel);
+        if (samples > 0) found.pixels.add(pixel.x, pixel.y, samples);
+        for (const auto& [luminance, light] : pixel.met) found.highlights.add(luminance, {share, light * share}, std::max(samples, 1));
+    }
+    for (const Sighting& s : sightings.all) {
+        const MeasuredPixel* pixel = measured_at(s.x, s.y);
+        if (!pixel || !met[size_t(pixel - measured_.data())]) found.highlights.add(s.luminance, s.band);
+    }
+    return true;
+}
+
+std::optional<EdgesFound> Pilot::find(const Sightings& sightings) {
+    if (!render(emission_, kernels_.emission, 1, 1, seen_)) return std::nullopt;
+    const bool may_have_edges = !std::ranges::all_of(seen_.luminance, [&](double l) { return l == seen_.luminance[0]; });
+    if (!may_have_edges && sightings.all.empty()) return EdgesFound{};
+    if (!render_coarse()) return std::nullopt;
+    EdgesFound found{EdgePixels(seen_.width, seen_.height, int(chains_.settings.max_bounces)), {}};
+    if (may_have_edges && !find_edges(found.pixels)) return std::nullopt;
+    if (!find_highlights(sightings, found)) return std::nullopt;
+    return found;
 }
 
 } // namespace
 
-std::optional<EdgePixels> find_edge_pixels(const KernelContext& context, const Kernel& kernel, const Workers& workers,
+std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, int longest_chain,
+                                           const Sightings& sightings, const Workers& workers,
                                            std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
-    return Pilot(context, kernel, workers, scratch, wanted).find();
+    return Pilot(context, kernels, longest_chain, workers, scratch, wanted).find(sightings);
 }
 
 } // namespace blush

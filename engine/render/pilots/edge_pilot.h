@@ -1,7 +1,9 @@
-// Pilot of smooth edges: finds the pixels in which more samples of the emission at the first hit pay.
+// Pilot of smooth edges: finds the pixels in which more samples of the emission that the camera sees pay.
 #pragma once
 
 #include "core/parallel.h"
+#include "render/diagnostics/highlight_pilot.h"
+#include "render/error/small_highlights.h"
 #include "render/film/edge_pixels.h"
 #include "render/kernels/kernel.h"
 
@@ -31,9 +33,26 @@ namespace blush {
 // fewer pixels are taken. Pixels whose neighbours differ enough in emission, by E, then take some samples each for V. Work is counted in
 // rays, not in time: the result is the same for any number of threads and any instruction set.
 //
-// `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if needed. Empty if
-// `wanted` returned false.
-std::optional<EdgePixels> find_edge_pixels(const KernelContext& context, const Kernel& kernel, const Workers& workers,
+// Highlights of lamps in mirrors and glass are edges, too, but hardly any sample of one per pixel meets them. Pixels near those that
+// highlight_pilot.h has sighted, at most one pixel in 64 and the nearest to a lamp first, are measured by 128 samples of the emission each.
+// They are taken by the same rule, with their rays counted, with one of two larger M. A pixel beside others that met a highlight counts as
+// if one more sample had.
+//
+// `highlights` of the result: those that the samples of the measured pixels met. Sightings elsewhere, and those near which no sample met
+// any, stay as they were sighted.
+//
+// `context` as for the film at full resolution, except its seed and groups. `paths`: the kernel of samples; `emission`: one with all
+// features that they need but light paths. `longest_chain`: 0 where smooth surfaces have no smooth edges; then `sightings` must be empty.
+// `scratch`: one per worker, allocated if needed. Empty if `wanted` returned false.
+struct EdgesFound {
+    EdgePixels pixels;
+    SmallHighlights highlights;
+};
+struct EdgeKernels {
+    const Kernel &paths, &emission;
+};
+std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, int longest_chain,
+                                           const Sightings& sightings, const Workers& workers,
                                            std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush

@@ -30,7 +30,7 @@ SmallHighlights found_in(const Scene& scene, const RenderSettings& settings, uns
     const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
     const Workers workers(threads);
     std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-    return find_small_highlights(context, workers, scratch, {}).value();
+    return highlights_of(find_small_highlights(context, workers, scratch, {}).value());
 }
 
 double total_rate(const SmallHighlights& found) {
@@ -65,8 +65,8 @@ Moments kernel_estimate() {
 TEST(HighlightPilot, EstimatesHowMuchOfTheImageALampInAMirrorCovers) {
     const SmallHighlights found = found_in(lamp_before_a_mirror(), settings_for(64, 64, 16));
     const Moments expected = kernel_estimate();
-    // All 16384 paths meet the mirror, so each is repeated once.
-    const double sigma = std::sqrt(expected.variance / (2 * 16384));
+    // All squares of pixels meet the mirror, so 8 paths for each of 64 x 64 pixels look for the lamp.
+    const double sigma = std::sqrt(expected.variance / (8 * 64 * 64));
     EXPECT_NEAR(total_rate(found), expected.mean, 4 * sigma);
     EXPECT_LT(4 * sigma, 0.2 * expected.mean) << "too noisy to show a wrong estimate";
     // The lamp behind the mirror, projected onto the image plane.
@@ -135,7 +135,16 @@ TEST(SmallHighlights, AreHardlyMetByFewSamplesOnly) {
     EXPECT_EQ(&lamp.of(400), &lamp.of(300)); // the octave from 256 to 512
     EXPECT_NE(&lamp.of(400), &lamp.of(200));
     EXPECT_EQ(&lamp.of(0), &lamp.bands.front());
-    EXPECT_EQ(&lamp.of(1e300), &lamp.bands.back());
+    EXPECT_EQ(&lamp.of(1e300, bright_highlight_samples), &lamp.bands.back());
+}
+
+TEST(SmallHighlights, AreMetMoreOftenInPixelsThatTakeMoreSamplesOfThem) {
+    for (const int each : {highlight_samples, bright_highlight_samples}) {
+        SmallHighlights lamp;
+        lamp.add(400, {1e-5, {4e-3, 4e-3, 4e-3}}, each);
+        EXPECT_TRUE(lamp.may_be_missed(999.0 / each, 2000, 64)) << each;
+        EXPECT_FALSE(lamp.may_be_missed(1001.0 / each, 2000, 64)) << each;
+    }
 }
 
 } // namespace

@@ -322,7 +322,8 @@ std::vector<double> refined(int64_t first, int samples, int stride) {
     for (int slot = 0; slot < job.paths(); ++slot) tile->r[slot] = double(job.sample(slot % samples)) + 1000;
     EdgePixels pixels(8, 8);
     pixels.add(4, 2);
-    refine_emission({}, kernel, pixels, job, *tile, *scratch);
+    const SceneTables empty{};
+    refine_emission({.scene = &empty}, kernel, pixels, job, *tile, *scratch);
     for (int s = 0; s < samples; ++s) EXPECT_EQ(tile->r[s], double(job.sample(s)) + 1000) << "no pixel of an edge";
     return std::vector<double>(tile->r.data + samples, tile->r.data + 2 * samples);
 }
