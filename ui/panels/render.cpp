@@ -129,8 +129,9 @@ void draw_paths(Fields& f, RenderSettings& r) {
                "buffer controls the samples of the other, so it is unbiased.");
     draw_reuse(f, r);
     f.checkbox("Smooth edges", r.smooth_edges,
-               "More camera rays at the edges of lamps, the sun and the environment as the camera sees them, where a pilot finds that this "
-               "pays; the section Specialisation below says in how many pixels. Unbiased; the noise differs.");
+               "More samples of the emission at the edges of lamps, the sun and the environment as the camera sees them, and of their "
+               "highlights in mirrors and glass, where a pilot finds that this pays; the section Specialisation below says in how many "
+               "pixels. Unbiased; the noise differs.");
     int64_t seed = r.seed;
     if (f.integer("Seed", seed, 0, UINT32_MAX, 0,
                   "Another seed gives different noise of the same level. The same seed gives the same image, bit for bit."))

@@ -207,8 +207,10 @@ void add_estimator_options(CLI::App& app, RenderOptions& o) {
         "[auto]",
         &o.reuse_given)
         ->type_name("auto|off|4|8|16");
-    add_parsed(app, "--smooth-edges", o.settings.smooth_edges, parse_switch,
-               "More camera rays at the edges of visible emitters, where a pilot finds that this pays [on]")
+    add_parsed(
+        app, "--smooth-edges", o.settings.smooth_edges, parse_switch,
+        "More samples of the emission at the edges of visible emitters, and of highlights of lamps in mirrors and glass, where a pilot "
+        "finds that this pays [on]")
         ->type_name("on|off");
     add_parsed(app, "--clamp", o.settings.clamp, parse_clamp,
                "Clamp samples of indirect light, or of all light, to X nits: biased, the summary prints the removed light [off]")

@@ -12,7 +12,7 @@ namespace blush {
 namespace {
 
 constexpr uint32_t highlight_pilot_seed = 0x9b05688cu; // any; it only has to differ from those of images
-constexpr int most_cells = 16384, num_repeats = 32768, most_per_cell = 64;
+constexpr int most_cells = 16384, num_repeats = 65536, most_per_cell = 1024;
 constexpr int cells_per_task = 64;
 constexpr float cone_height = 0.0340741737f; // 1 - cos(15 degrees)
 constexpr Features features = all_features;

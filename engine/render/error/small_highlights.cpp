@@ -11,10 +11,14 @@ constexpr double max_missed_share = 0.1; // of the squared error: moves the RMSE
 
 } // namespace
 
-SmallHighlights::Band& SmallHighlights::of(double luminance, int samples) {
+size_t SmallHighlights::octave_of(double luminance) {
     const double octave = luminance > 0 ? std::floor(std::log2(luminance)) - first_octave : 0;
+    return size_t(std::clamp(octave, 0.0, double(num_bands - 1)));
+}
+
+SmallHighlights::Band& SmallHighlights::of(double luminance, int samples) {
     const auto set = size_t(std::ranges::find(samples_of_set, samples) - samples_of_set.begin());
-    return bands[set * num_bands + size_t(std::clamp(octave, 0.0, double(num_bands - 1)))];
+    return bands[set * num_bands + octave_of(luminance)];
 }
 
 void SmallHighlights::add(double luminance, const Band& light, int samples) {

@@ -26,6 +26,7 @@ struct SmallHighlights {
     std::array<Band, samples_of_set.size() * num_bands> bands;
 
     // The band of light that adds this luminance to a sample, nits, in pixels that take so many samples of it: one of `samples_of_set`.
+    static size_t octave_of(double luminance);
     Band& of(double luminance, int samples = 1);
     void add(double luminance, const Band& light, int samples = 1);
     bool operator==(const SmallHighlights&) const = default;

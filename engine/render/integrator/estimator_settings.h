@@ -34,7 +34,7 @@ struct EstimatorSettings {
     const EnergyTable* energy = nullptr; // null: no multiple-scattering compensation
     ReuseGroups reuse;                   // group of one pixel: off
     bool filter_textures = true;
-    bool emission_only = false; // no NEE, and only delta lobes continue paths: emission as seen directly, in mirrors and through glass
+    bool emission_only = false;  // no NEE, and only delta lobes continue paths: emission that is seen, in mirrors and glass, too
     float width = 1, height = 1; // of the film, pixels
 };
 

@@ -6,6 +6,7 @@
 #include "render/pilots/variant_comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -50,6 +51,7 @@ struct MeasuredPixel {
     std::vector<std::pair<double, Vec3d>> met; // luminance and radiance of those that met light behind smooth surfaces
 };
 constexpr int measured_samples = 128;
+constexpr double significant_sigmas = 2; // of what was sighted, beyond what the samples met
 constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured = 64;
 
 class Pilot {
@@ -81,6 +83,7 @@ private:
     void measure(MeasuredPixel& pixel, TileScratch& scratch) const;
     // How many samples of its emission pay; 0: none.
     int highlight_samples_of(const MeasuredPixel& pixel) const;
+    void add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const;
     bool find_highlights(const Sightings& sightings, EdgesFound& found);
     const MeasuredPixel* measured_at(int x, int y) const;
 
@@ -244,40 +247,36 @@ int Pilot::highlight_samples_of(const MeasuredPixel& pixel) const {
     return pays(1 / few - 1 / many, bright_highlight_samples - highlight_samples) ? bright_highlight_samples : highlight_samples;
 }
 
+// Sightings that the samples of the measured pixels do not explain: as far as their rate is significantly larger than that of what the
+// samples met. Light of a sighting may be met an octave brighter or darker.
+void Pilot::add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const {
+    const SmallHighlights sighted = highlights_of(sightings);
+    std::array<double, SmallHighlights::num_bands> squares{}, met{};
+    for (const Sighting& s : sightings.all) squares[SmallHighlights::octave_of(s.luminance)] += s.band.rate * s.band.rate;
+    for (size_t k = 0; k < highlights.bands.size(); ++k) met[k % met.size()] += highlights.bands[k].rate;
+    for (size_t k = 0; k < met.size(); ++k) {
+        const SmallHighlights::Band& band = sighted.bands[k];
+        const double near = met[k] + (k > 0 ? met[k - 1] : 0) + (k + 1 < met.size() ? met[k + 1] : 0);
+        const double left = band.rate - near - significant_sigmas * std::sqrt(squares[k]);
+        if (!(left > 0)) continue;
+        SmallHighlights::Band& unmeasured = highlights.bands[k];
+        unmeasured.rate += left;
+        unmeasured.sum = unmeasured.sum + band.sum * (left / band.rate);
+    }
+}
+
 bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
     choose_measured(sightings);
     if (!workers_.for_each(int64_t(measured_.size()), wanted_,
                            [&](int64_t i, unsigned worker) { measure(measured_[size_t(i)], *scratch_[worker]); }))
         return false;
-    // Pixels of a connected region see the same lamp: sightings there are replaced by what its pixels met.
-    std::vector<bool> met(measured_.size()), visited(measured_.size());
-    for (size_t first = 0; first < measured_.size(); ++first) {
-        if (visited[first]) continue;
-        std::vector<size_t> region{first};
-        visited[first] = true;
-        bool any = false;
-        for (size_t k = 0; k < region.size(); ++k) {
-            const MeasuredPixel& pixel = measured_[region[k]];
-            any = any || !pixel.met.empty();
-            for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
-                for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
-                    if (const MeasuredPixel* near = measured_at(x, y); near && !visited[size_t(near - measured_.data())]) {
-                        visited[size_t(near - measured_.data())] = true;
-                        region.push_back(size_t(near - measured_.data()));
-                    }
-        }
-        for (const size_t k : region) met[k] = any;
-    }
     const double share = 1 / (double(place_.size()) * measured_samples);
     for (const MeasuredPixel& pixel : measured_) {
         const int samples = highlight_samples_of(pixel);
         if (samples > 0) found.pixels.add(pixel.x, pixel.y, samples);
         for (const auto& [luminance, light] : pixel.met) found.highlights.add(luminance, {share, light * share}, std::max(samples, 1));
     }
-    for (const Sighting& s : sightings.all) {
-        const MeasuredPixel* pixel = measured_at(s.x, s.y);
-        if (!pixel || !met[size_t(pixel - measured_.data())]) found.highlights.add(s.luminance, s.band);
-    }
+    add_unmeasured(sightings, found.highlights);
     return true;
 }
 

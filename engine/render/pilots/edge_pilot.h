@@ -38,8 +38,8 @@ namespace blush {
 // They are taken by the same rule, with their rays counted, with one of two larger M. A pixel beside others that met a highlight counts as
 // if one more sample had.
 //
-// `highlights` of the result: those that the samples of the measured pixels met. Sightings elsewhere, and those near which no sample met
-// any, stay as they were sighted.
+// `highlights` of the result: those that the samples of the measured pixels met, and in ordinary pixels what was sighted beyond them by
+// more than two standard errors.
 //
 // `context` as for the film at full resolution, except its seed and groups. `paths`: the kernel of samples; `emission`: one with all
 // features that they need but light paths. `longest_chain`: 0 where smooth surfaces have no smooth edges; then `sightings` must be empty.

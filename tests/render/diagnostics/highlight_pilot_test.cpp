@@ -65,8 +65,8 @@ Moments kernel_estimate() {
 TEST(HighlightPilot, EstimatesHowMuchOfTheImageALampInAMirrorCovers) {
     const SmallHighlights found = found_in(lamp_before_a_mirror(), settings_for(64, 64, 16));
     const Moments expected = kernel_estimate();
-    // All squares of pixels meet the mirror, so 8 paths for each of 64 x 64 pixels look for the lamp.
-    const double sigma = std::sqrt(expected.variance / (8 * 64 * 64));
+    // All squares of pixels meet the mirror, so 16 paths for each of 64 x 64 pixels look for the lamp.
+    const double sigma = std::sqrt(expected.variance / (16 * 64 * 64));
     EXPECT_NEAR(total_rate(found), expected.mean, 4 * sigma);
     EXPECT_LT(4 * sigma, 0.2 * expected.mean) << "too noisy to show a wrong estimate";
     // The lamp behind the mirror, projected onto the image plane.

@@ -250,10 +250,10 @@ TEST(SmoothHighlights, AreLeftOutWhereTheyDoNotFit) {
 
 // Without, both halves miss them (highlight_pilot_test.cpp).
 TEST(SmoothHighlights, MakeTheErrorOfARingKnown) {
-    const RenderSettings settings = settings_for(160, 90, 32);
+    const RenderSettings settings = settings_for(320, 180, 16);
     const Scene ring = shipped_scene("metal-ring");
-    EXPECT_TRUE(render_in_steps(ring, settings, {.threads = 2}, {32}).error.misses_highlights);
-    const ErrorEstimate error = render_in_steps(ring, smooth(settings), {.threads = 2}, {32}).error;
+    EXPECT_TRUE(render_in_steps(ring, settings, {.threads = 2}, {16}).error.misses_highlights);
+    const ErrorEstimate error = render_in_steps(ring, smooth(settings), {.threads = 2}, {16}).error;
     EXPECT_FALSE(error.misses_highlights);
     EXPECT_TRUE(error.rmse_known);
 }
