@@ -24,6 +24,7 @@ public:
 
     void add(int x, int y, int samples = edge_samples) {
         uint16_t& of = samples_[place(x, y)];
+        if (of == 0) ++count_;
         of = std::max(of, uint16_t(samples));
     }
     // Emission samples per sample; 0: none.
@@ -38,9 +39,7 @@ public:
     }
     // With so many samples.
     int64_t count(int samples) const { return std::ranges::count(samples_, uint16_t(samples)); }
-    bool empty() const {
-        return std::ranges::all_of(samples_, [](uint16_t of) { return of == 0; });
-    }
+    bool empty() const { return count_ == 0; }
     int longest_chain() const { return longest_chain_; }
     bool operator==(const EdgePixels&) const = default;
 
@@ -48,6 +47,7 @@ private:
     size_t place(int x, int y) const { return size_t(y) * size_t(width_) + size_t(x); }
 
     int width_ = 0, longest_chain_ = 0;
+    int64_t count_ = 0; // of pixels with any
     std::vector<uint16_t> samples_;
 };
 

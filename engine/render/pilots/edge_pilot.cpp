@@ -194,11 +194,14 @@ const MeasuredPixel* Pilot::measured_at(int x, int y) const {
 }
 
 // The pixels around each sighting, as far as the next path that looked for them: nearest lamps first, while there are not too many pixels.
+// Light that is seen in more pixels than these has no small highlights: an environment in glass.
 void Pilot::choose_measured(const Sightings& sightings) {
     place_.assign(size_t(seen_.width) * size_t(seen_.height), -1);
     const auto most = size_t(std::clamp(int(place_.size()) / pixels_per_measured, fewest_measured, most_measured));
     const int reach = int(std::ceil(sightings.spacing));
+    SmallHighlights sighted = highlights_of(sightings);
     std::vector<Sighting> nearest = sightings.all;
+    std::erase_if(nearest, [&](const Sighting& s) { return sighted.of(s.luminance).rate * double(place_.size()) > double(most); });
     std::ranges::stable_sort(nearest, {}, &Sighting::apart);
     for (const Sighting& s : nearest)
         for (int y = std::max(0, s.y - reach); y <= std::min(seen_.height - 1, s.y + reach); ++y)
