@@ -133,7 +133,7 @@ void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
     KernelContext context = context_for(scene.tables(), film.width(), film.height());
     context.seed = settings.seed;
     SceneTables tables;
-    render_emission_only(context, tables, pixels.longest_chain());
+    restrict_to_emission(context, tables, pixels.longest_chain());
     constexpr TileShape shape{32, 32, 1};
     for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
         if (!pixels.any(job.x, job.y, job.width, job.height)) return true;

@@ -56,9 +56,7 @@ public:
     // True if some surface may be Lambertian, as path reuse needs it.
     bool may_be_lambertian() const { return used_.lambertian; }
     // True if delta lobes may show lamps.
-    bool has_smooth_surfaces() const { return used_.smooth.mirror || used_.smooth.glass; }
-    // True if lamps may be seen in smooth surfaces.
-    bool may_have_highlights() const { return has_smooth_surfaces() && tables_.lights.count > 0; }
+    bool may_have_highlights() const { return (used_.smooth.mirror || used_.smooth.glass) && tables_.lights.count > 0; }
     // Contains all surfaces; relative to origin().
     CasterSphere bounding_sphere() const;
     // True if a camera ray may end at something that emits light, or is unlit.

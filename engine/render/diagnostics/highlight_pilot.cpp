@@ -2,7 +2,7 @@
 
 #include "core/math.h"
 #include "render/diagnostics/replay.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edge_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@ namespace blush {
 namespace {
 
 constexpr uint32_t highlight_pilot_seed = 0x9b05688cu; // any; it only has to differ from those of images
+// Cells are squares of pixels. One path of each finds the smooth surfaces; the others look for lamps.
 constexpr int most_cells = 16384, num_repeats = 65536, most_per_cell = 1024;
 constexpr int cells_per_task = 64;
 constexpr float cone_height = 0.0340741737f; // 1 - cos(15 degrees)
@@ -68,6 +69,7 @@ public:
                    const std::function<bool()>& wanted)
         : context_(context), workers_(workers), scratch_(scratch), wanted_(wanted) {
         context_.seed = highlight_pilot_seed;
+        restrict_to_emission(context_, tables_, longest_highlight_chain);
         side_ = std::max(1, int(std::ceil(std::sqrt(double(width()) * double(height()) / most_cells))));
         across_ = (width() + side_ - 1) / side_;
         down_ = (height() + side_ - 1) / side_;
@@ -78,7 +80,6 @@ public:
     std::optional<Sightings> find();
 
 private:
-    // Squares of pixels, of which one path each finds the smooth surfaces.
     int width() const { return int(context_.settings.width); }
     int height() const { return int(context_.settings.height); }
     PixelRect cell(int i) const {
@@ -93,19 +94,21 @@ private:
             for (size_t i = begin; i < std::min(begin + cells_per_task, count); ++i) run(i, *scratch_[worker]);
         });
     }
-    // The turned cells and those beside them.
+    // The cells in which a smooth surface turned the first path, and those beside them.
     std::vector<int> near(const std::vector<uint8_t>& turned) const;
-    // Sample `repeat` of a cell: appends the light that it meets. Returns true if a smooth surface turns it.
-    bool follow(int i, int repeat, TileScratch& scratch, std::vector<Sighting>& met) const;
+    // Path `repeat` of a cell: appends the lamps that it nearly meets; null: does not look for them. Returns true if a smooth surface turns
+    // it.
+    bool follow(int i, int repeat, TileScratch& scratch, std::vector<Sighting>* met) const;
 
     KernelContext context_;
+    SceneTables tables_;
     int side_, across_, down_;
     const Workers& workers_;
     std::vector<std::unique_ptr<TileScratch>>& scratch_;
     const std::function<bool()>& wanted_;
 };
 
-bool HighlightPilot::follow(int i, int repeat, TileScratch& scratch, std::vector<Sighting>& met) const {
+bool HighlightPilot::follow(int i, int repeat, TileScratch& scratch, std::vector<Sighting>* met) const {
     // The R2 sequence (Roberts 2018) spreads the paths evenly over the cell.
     const int64_t index = i + int64_t(repeat) * most_cells;
     const auto pixel = [&](double step, int begin, int end) {
@@ -118,8 +121,9 @@ bool HighlightPilot::follow(int i, int repeat, TileScratch& scratch, std::vector
     replay_sample(context_, x, y, index, longest_highlight_chain, scratch, [&](const ReplayedVertex& vertex) {
         if (!vertex.step.continues || vertex.step.next.pdf < infinity) return false;
         turned = true;
+        if (!met) return false;
         if (const auto light = meet_light(context_, vertex.step.next, vertex.bounce, scratch))
-            met.push_back({x, y, light->apart, light->luminance, light->band});
+            met->push_back({x, y, light->apart, light->luminance, light->band});
         return true;
     });
     return turned;
@@ -140,8 +144,8 @@ std::vector<int> HighlightPilot::near(const std::vector<uint8_t>& turned) const 
 std::optional<Sightings> HighlightPilot::find() {
     std::vector<uint8_t> turned(size_t(across_) * size_t(down_));
     if (!for_each_cell(turned.size(), [&](size_t i, TileScratch& scratch) {
-            std::vector<Sighting> unused; // a cell is chosen by this path, so that it cannot count as one of the cell's
-            turned[i] = follow(int(i), 0, scratch, unused);
+            // It does not count as one of the cell's paths: these are chosen by it.
+            turned[i] = follow(int(i), 0, scratch, nullptr);
         }))
         return std::nullopt;
     const std::vector<int> cells = near(turned);
@@ -149,7 +153,7 @@ std::optional<Sightings> HighlightPilot::find() {
     const int repeats = std::clamp(int(size_t(num_repeats) / cells.size()), 1, most_per_cell);
     std::vector<std::vector<Sighting>> met(cells.size());
     if (!for_each_cell(cells.size(), [&](size_t k, TileScratch& scratch) {
-            for (int repeat = 0; repeat < repeats; ++repeat) follow(cells[k], repeat + 1, scratch, met[k]);
+            for (int repeat = 0; repeat < repeats; ++repeat) follow(cells[k], repeat + 1, scratch, &met[k]);
         }))
         return std::nullopt;
 

@@ -33,9 +33,8 @@ struct Sightings {
 //
 // One path in each of at most 16,384 squares of pixels finds the smooth surfaces; squares where it meets one and those beside them get more
 // paths. They have a seed of their own, so the result does not depend on the samples of the image, on the number of threads or on the
-// instruction set. `context` as for the film at full
-// resolution, except its seed and groups; its scene has learned nothing. `scratch`: one per worker, allocated if needed. Empty if
-// `wanted` returned false.
+// instruction set. `context` as for the film at full resolution, except its seed and groups. `scratch`: one per worker, allocated if
+// needed. Empty if `wanted` returned false.
 std::optional<Sightings> find_small_highlights(const KernelContext& context, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 

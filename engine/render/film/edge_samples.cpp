@@ -116,7 +116,7 @@ void refine_run(const KernelContext& context, const Kernel& kernel, const Run& r
 
 } // namespace
 
-void render_emission_only(KernelContext& context, SceneTables& tables, int longest_chain) {
+void restrict_to_emission(KernelContext& context, SceneTables& tables, int longest_chain) {
     tables = *context.scene;
     tables.emission = {};
     tables.manifolds = {};
@@ -130,7 +130,7 @@ void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixe
                      EdgeScratch& scratch) {
     if (!pixels.any(job.x, job.y, job.width, job.height)) return;
     SceneTables tables;
-    render_emission_only(context, tables, pixels.longest_chain());
+    restrict_to_emission(context, tables, pixels.longest_chain());
     fit_planes(tile, scratch.own);
     fit_planes(tile, scratch.more);
     if (tile.bounces) record_all_bounces(tile, job.paths());

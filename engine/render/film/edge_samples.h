@@ -27,12 +27,13 @@ struct EdgeScratch {
 //
 // Light groups, light by bounces and what camera rays hit get the same difference as the radiance; first hits stay those of the sample's
 // own ray. A sample stays as it is if one of its emission samples is negative or not finite.
+//
 // `context`: of the samples. `kernel`: with all features that they need but light paths.
 void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixels& pixels, const TileJob& job, TileScratch& tile,
                      EdgeScratch& scratch);
 
-// Makes `context` that of renders of emission alone. `tables` receives those of its scene, without light paths and manifold sampling, which
-// do not find this light.
-void render_emission_only(KernelContext& context, SceneTables& tables, int longest_chain);
+// Restricts `context` to emission at the end of at most `longest_chain` delta lobes. `tables`, which `context` then refers to, receives
+// those of its scene without light paths and manifold sampling, which do not find this light.
+void restrict_to_emission(KernelContext& context, SceneTables& tables, int longest_chain);
 
 } // namespace blush

@@ -39,14 +39,13 @@ FeatureUse EdgeChoice::report() const {
         use.why = "pilot: the edges of visible light sources have too small a share of the noise";
     else {
         std::string pixels;
-        const auto add = [&](const char* text, int samples) {
+        const auto add = [&](const char* where, int samples, const char* rays) {
             if (const int64_t count = pixels_->count(samples); count > 0)
-                pixels +=
-                    fmt::format("{}{} pixels {} a sample", pixels.empty() ? "" : "; ", count, fmt::format(fmt::runtime(text), samples));
+                pixels += fmt::format("{}{} pixels {}, {} {} a sample", pixels.empty() ? "" : "; ", count, where, samples, rays);
         };
-        add("at edges of visible light sources, {} camera rays", edge_samples);
-        add("with highlights of lamps in smooth surfaces, {} paths", highlight_samples);
-        add("with bright highlights, {} paths", bright_highlight_samples);
+        add("at edges of visible light sources", edge_samples, "camera rays");
+        add("with highlights of lamps in smooth surfaces", highlight_samples, "paths");
+        add("with bright highlights", bright_highlight_samples, "paths");
         use.why = "pilot: " + pixels;
     }
     return use;

@@ -61,7 +61,7 @@ public:
         : context_(context), kernels_(kernels), workers_(workers), scratch_(scratch), wanted_(wanted) {
         context_.seed = edge_pilot_seed;
         chains_ = context_;
-        render_emission_only(chains_, tables_, longest_chain);
+        restrict_to_emission(chains_, tables_, longest_chain);
         emission_ = chains_;
         emission_.settings.max_bounces = 0;
         context_.settings.reuse = {};
@@ -177,7 +177,7 @@ bool Pilot::is_edge(int x, int y, TileScratch& scratch) const {
 }
 
 bool Pilot::find_edges(EdgePixels& pixels) {
-    std::vector<uint8_t> found(seen_.luminance.size()); // bits of a bitmap share words
+    std::vector<uint8_t> found(seen_.luminance.size()); // EdgePixels counts its pixels, so threads cannot share it
     const bool all = workers_.for_each(seen_.height, wanted_, [&](int64_t y, unsigned worker) {
         for (int x = 0; x < seen_.width; ++x) found[size_t(y) * size_t(seen_.width) + size_t(x)] = is_edge(x, int(y), *scratch_[worker]);
     });

@@ -14,6 +14,14 @@
 
 namespace blush {
 
+struct EdgesFound {
+    EdgePixels pixels;
+    SmallHighlights highlights;
+};
+struct EdgeKernels {
+    const Kernel &paths, &emission;
+};
+
 // At an edge of an emitter a sample has the emission E with probability a, the coverage, or else the light R that the path finds
 // beyond the edge. With M samples of the emission for each path (edge_samples.h) its variance is
 //
@@ -44,13 +52,6 @@ namespace blush {
 // `context` as for the film at full resolution, except its seed and groups. `paths`: the kernel of samples; `emission`: one with all
 // features that they need but light paths. `longest_chain`: 0 where smooth surfaces have no smooth edges; then `sightings` must be empty.
 // `scratch`: one per worker, allocated if needed. Empty if `wanted` returned false.
-struct EdgesFound {
-    EdgePixels pixels;
-    SmallHighlights highlights;
-};
-struct EdgeKernels {
-    const Kernel &paths, &emission;
-};
 std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, int longest_chain,
                                            const Sightings& sightings, const Workers& workers,
                                            std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
