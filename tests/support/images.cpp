@@ -1,5 +1,6 @@
 #include "tests/support/images.h"
 
+#include <cstdlib>
 #include <string_view>
 
 namespace blush::test {
@@ -35,6 +36,28 @@ Frame fresh_image(const Scene& scene, const RenderSettings& settings, int64_t co
     renderer.update(scene, settings);
     renderer.render(settings.first_sample, count);
     return renderer.resolve();
+}
+
+Frame render_in_steps(const Scene& scene, const RenderSettings& settings, const RendererOptions& options,
+                      std::initializer_list<int64_t> ends) {
+    Renderer renderer(options);
+    renderer.update(scene, settings);
+    int64_t first = settings.first_sample;
+    for (const int64_t end : ends) {
+        EXPECT_TRUE(renderer.render(first, end - first));
+        first = end;
+    }
+    return renderer.resolve();
+}
+
+void for_each_isa(const std::function<void(const std::string&)>& test) {
+    const char* const before = std::getenv("BLUSH_ISA");
+    const std::string kept = before ? before : "";
+    for (const std::string& isa : available_isas()) {
+        setenv("BLUSH_ISA", isa.c_str(), 1);
+        test(isa);
+    }
+    before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
 }
 
 ::testing::AssertionResult same_pixels(const Frame& a, const Frame& b) {

@@ -7,6 +7,7 @@
 #include "tests/render/reference_scenes.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
+#include "tests/support/images.h"
 
 #include <algorithm>
 #include <memory>
@@ -167,31 +168,19 @@ TEST(Adaptive, MeasuresTheNoiseThatRelmseMeasures) {
 
 // ---- with a renderer
 
-constexpr PlaneSet everything{true, true, true, true};
-
 RenderSettings adaptive_settings(int width, int height, int64_t spp) {
     RenderSettings settings = settings_for(width, height, spp);
     settings.adaptive = true;
     return settings;
 }
 
-Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsigned threads, std::initializer_list<int64_t> ends) {
-    Renderer renderer({.threads = threads, .planes = everything});
-    renderer.update(scene, settings);
-    int64_t first = 0;
-    for (const int64_t end : ends) {
-        EXPECT_TRUE(renderer.render(first, end - first));
-        first = end;
-    }
-    return renderer.resolve();
-}
-
 TEST(Adaptive, ThreadsAndStepsDoNotChangeABit) {
     const Scene scene = shipped_scene("veach-mis");
     const RenderSettings settings = adaptive_settings(83, 50, 64);
-    const Frame once = render_in_steps(scene, settings, 1, {64});
-    for (const Frame& other : {render_in_steps(scene, settings, 2, {64}), render_in_steps(scene, settings, 2, {1, 2, 4, 7, 16, 17, 30, 64}),
-                               render_in_steps(scene, settings, 1, {13, 51, 64})}) {
+    const Frame once = render_in_steps(scene, settings, all_planes(1), {64});
+    for (const Frame& other : {render_in_steps(scene, settings, all_planes(2), {64}),
+                               render_in_steps(scene, settings, all_planes(2), {1, 2, 4, 7, 16, 17, 30, 64}),
+                               render_in_steps(scene, settings, all_planes(1), {13, 51, 64})}) {
         EXPECT_EQ(once.rgba, other.rgba);
         EXPECT_EQ(once.albedo, other.albedo);
         EXPECT_EQ(once.depth, other.depth);
@@ -203,7 +192,7 @@ TEST(Adaptive, ThreadsAndStepsDoNotChangeABit) {
 
 TEST(Adaptive, SpendsTheGivenNumberOfSamples) {
     const Scene scene = shipped_scene("cornell");
-    const Frame frame = render_in_steps(scene, adaptive_settings(250, 140, 40), 0, {40});
+    const Frame frame = render_in_steps(scene, adaptive_settings(250, 140, 40), all_planes(0), {40});
     EXPECT_EQ(frame.samples, 40);
     double sum = 0;
     for (const float n : frame.pixel_samples) sum += double(n);
@@ -215,7 +204,7 @@ TEST(Adaptive, SpendsTheGivenNumberOfSamples) {
 }
 
 TEST(Adaptive, AddsNoPlaneWhenItIsOff) {
-    EXPECT_TRUE(render_in_steps(shipped_scene("cornell"), settings_for(32, 32, 32), 1, {32}).pixel_samples.empty());
+    EXPECT_TRUE(render_in_steps(shipped_scene("cornell"), settings_for(32, 32, 32), all_planes(1), {32}).pixel_samples.empty());
 }
 
 // Compares with uniform sampling of the same scene, block by block, with the variances that both measure.
@@ -267,9 +256,9 @@ TEST(Adaptive, KeepsCoverage) {
     scene.environment.visible_to_camera = false;
     scene.view = looking_down(1, 1);
     RenderSettings settings = settings_for(50, 50, 48);
-    const Frame evenly = render_in_steps(scene, settings, 1, {48});
+    const Frame evenly = render_in_steps(scene, settings, all_planes(1), {48});
     settings.adaptive = true;
-    const Frame adapted = render_in_steps(scene, settings, 1, {48});
+    const Frame adapted = render_in_steps(scene, settings, all_planes(1), {48});
     int full = 0, empty = 0;
     for (size_t i = 3; i < evenly.rgba.size(); i += 4) {
         if (evenly.rgba[i] != 1 && evenly.rgba[i] != 0) continue;

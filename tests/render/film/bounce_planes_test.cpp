@@ -2,8 +2,7 @@
 #include "core/sampler.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
-
-#include <cstdlib>
+#include "tests/support/images.h"
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -107,13 +106,7 @@ TEST(BouncePlanes, DoNotChangeTheBeautyAndAreDeterministic) {
     EXPECT_TRUE(without.bounces.empty());
     EXPECT_EQ(without.rgba, with.rgba);
     EXPECT_EQ(render_planes(scene, settings, 4, 3).bounces, with.bounces) << "threads";
-    const char* const before = std::getenv("BLUSH_ISA");
-    const std::string kept = before ? before : "";
-    for (const std::string& isa : available_isas()) {
-        setenv("BLUSH_ISA", isa.c_str(), 1);
-        EXPECT_EQ(render_planes(scene, settings, 4).bounces, with.bounces) << isa;
-    }
-    before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
+    for_each_isa([&](const std::string& isa) { EXPECT_EQ(render_planes(scene, settings, 4).bounces, with.bounces) << isa; });
 }
 
 } // namespace

@@ -7,17 +7,6 @@ namespace blush::test::TEST_FILE {
 namespace {
 
 // Renders samples [0, ends[0]), [ends[0], ends[1]), ...
-Frame render_in_steps(const Scene& scene, const RenderSettings& settings, unsigned threads, std::initializer_list<int64_t> ends) {
-    Renderer renderer(all_planes(threads));
-    renderer.update(scene, settings);
-    int64_t first = 0;
-    for (const int64_t end : ends) {
-        EXPECT_TRUE(renderer.render(first, end - first));
-        first = end;
-    }
-    return renderer.resolve();
-}
-
 // Pixels, planes and statistics.
 void expect_same(const Frame& a, const Frame& b, const char* what) {
     EXPECT_TRUE(same_pixels(a, b)) << what;
@@ -30,11 +19,11 @@ TEST(Determinism, DoesNotDependOnThreadsRunsAndSplits) {
     for (const char* name : {"card-and-mug", "veach-mis"}) {
         const Scene scene = shipped_scene(name);
         const RenderSettings settings = settings_for(80, 45, 8);
-        const Frame once = render_in_steps(scene, settings, 1, {8});
-        expect_same(once, render_in_steps(scene, settings, 1, {8}), "a second run");
-        expect_same(once, render_in_steps(scene, settings, 2, {8}), "two threads");
-        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
-        expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+        const Frame once = render_in_steps(scene, settings, all_planes(1), {8});
+        expect_same(once, render_in_steps(scene, settings, all_planes(1), {8}), "a second run");
+        expect_same(once, render_in_steps(scene, settings, all_planes(2), {8}), "two threads");
+        expect_same(once, render_in_steps(scene, settings, all_planes(2), {3, 8}), "0:3 + 3:8");
+        expect_same(once, render_in_steps(scene, settings, all_planes(1), {1, 2, 4, 8}), "doubling");
     }
 }
 
@@ -42,9 +31,9 @@ TEST(Determinism, IndependentNumbersDoNotDependOnThreadsAndSplits) {
     RenderSettings settings = settings_for(80, 45, 8);
     settings.sampler = SamplerType::random;
     const Scene scene = shipped_scene("veach-mis");
-    const Frame once = render_in_steps(scene, settings, 1, {8});
-    expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "two threads, 0:3 + 3:8");
-    expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+    const Frame once = render_in_steps(scene, settings, all_planes(1), {8});
+    expect_same(once, render_in_steps(scene, settings, all_planes(2), {3, 8}), "two threads, 0:3 + 3:8");
+    expect_same(once, render_in_steps(scene, settings, all_planes(1), {1, 2, 4, 8}), "doubling");
 }
 
 // Equal means, and with 64 independent samples clearly more noise than with stratified points.
@@ -64,10 +53,10 @@ TEST(Determinism, SharedPathsDoNotDependOnThreadsAndSplits) {
         RenderSettings settings = settings_for(80, 45, 8);
         settings.reuse = reuse;
         const Scene scene = shipped_scene("cornell");
-        const Frame once = render_in_steps(scene, settings, 1, {8});
-        expect_same(once, render_in_steps(scene, settings, 2, {8}), "two threads");
-        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
-        expect_same(once, render_in_steps(scene, settings, 1, {1, 2, 4, 8}), "doubling");
+        const Frame once = render_in_steps(scene, settings, all_planes(1), {8});
+        expect_same(once, render_in_steps(scene, settings, all_planes(2), {8}), "two threads");
+        expect_same(once, render_in_steps(scene, settings, all_planes(2), {3, 8}), "0:3 + 3:8");
+        expect_same(once, render_in_steps(scene, settings, all_planes(1), {1, 2, 4, 8}), "doubling");
     }
 }
 
@@ -86,8 +75,8 @@ TEST(Determinism, AlphaAndShadowsOfAlphaDoNotDependOnSplits) {
     for (const int reuse : {1, 16}) {
         RenderSettings settings = settings_for(40, 40, 8);
         settings.reuse = reuse;
-        const Frame once = render_in_steps(scene, settings, 1, {8});
-        expect_same(once, render_in_steps(scene, settings, 2, {3, 8}), "0:3 + 3:8");
+        const Frame once = render_in_steps(scene, settings, all_planes(1), {8});
+        expect_same(once, render_in_steps(scene, settings, all_planes(2), {3, 8}), "0:3 + 3:8");
     }
 }
 

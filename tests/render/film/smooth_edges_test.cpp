@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 
@@ -101,18 +100,6 @@ std::vector<Named> scenes_with_edges() {
             {"sun disk", sun_disk()},
             {"window", window()},
             {"sphere light", sphere_light()}};
-}
-
-Frame render_in_steps(const Scene& scene, const RenderSettings& settings, const RendererOptions& options,
-                      std::initializer_list<int64_t> ends) {
-    Renderer renderer(options);
-    renderer.update(scene, settings);
-    int64_t first = settings.first_sample;
-    for (const int64_t end : ends) {
-        EXPECT_TRUE(renderer.render(first, end - first));
-        first = end;
-    }
-    return renderer.resolve();
 }
 
 bool differ(const Vec3d& a, const Vec3d& b) { return a.x != b.x || a.y != b.y || a.z != b.z; }
@@ -209,13 +196,9 @@ TEST(SmoothEdges, WithAdaptiveSamplingDoNotDependOnThreadsAndRanges) {
 TEST(SmoothEdges, AreTheSameInEachInstructionSet) {
     const RenderSettings settings = smooth(settings_for(48, 32, 4));
     const Frame widest = render_in_steps(lamp_out_of_focus(), settings, all_planes(1), {4});
-    const char* const before = std::getenv("BLUSH_ISA");
-    const std::string kept = before ? before : "";
-    for (const std::string& isa : available_isas()) {
-        setenv("BLUSH_ISA", isa.c_str(), 1);
+    for_each_isa([&](const std::string& isa) {
         EXPECT_TRUE(same_pixels(widest, render_in_steps(lamp_out_of_focus(), settings, all_planes(1), {4}))) << isa;
-    }
-    before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
+    });
 }
 
 TEST(SmoothEdges, ContinueASavedFilm) {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -51,7 +50,7 @@ Scene lamps_in_a_mirror() {
     return scene;
 }
 
-// Over two mirrors, one of which blurs nothing but tints.
+// Over two mirrors. The second one tints.
 Scene lamps_in_two_mirrors() {
     Scene scene = lamps_in_a_mirror();
     Material tinted = metal(0);
@@ -95,18 +94,6 @@ std::vector<Named> scenes_with_highlights() {
             {"sun", sun_in_a_mirror_out_of_focus()}};
 }
 
-Frame render_in_steps(const Scene& scene, const RenderSettings& settings, const RendererOptions& options,
-                      std::initializer_list<int64_t> ends) {
-    Renderer renderer(options);
-    renderer.update(scene, settings);
-    int64_t first = settings.first_sample;
-    for (const int64_t end : ends) {
-        EXPECT_TRUE(renderer.render(first, end - first));
-        first = end;
-    }
-    return renderer.resolve();
-}
-
 TEST(SmoothHighlights, KeepTheMean) {
     const auto scenes = scenes_with_highlights();
     const double alpha = statistics::sidak(statistics::significance, int64_t(scenes.size()));
@@ -121,11 +108,11 @@ TEST(SmoothHighlights, KeepTheMean) {
     }
 }
 
-// The variance of the pixels that change, with over without: 1 / 64 remains of what the pixels with fewest samples get for the lamp alone.
+// Pixels take at least 64 samples of the lamp's light for each sample, so less than an eighth of their variance remains.
 TEST(SmoothHighlights, HaveLessNoise) {
     RenderSettings settings = quick_settings(64, 48, 16);
     settings.sampler = SamplerType::random;
-    Moments fall; // half of the variance before, less that after
+    Moments fall; // an eighth of the variance before, less that after
     for (settings.seed = 0; settings.seed < 24; ++settings.seed) {
         const RenderedImage rough = render(lamps_in_a_mirror(), settings), refined = render(lamps_in_a_mirror(), smooth(settings));
         double before = 0, after = 0;
@@ -182,13 +169,9 @@ TEST(SmoothHighlights, AreTheSameInEachInstructionSet) {
     const RenderSettings settings = smooth(settings_for(48, 36, 4));
     const Frame widest = render_in_steps(lamp_in_glass(), settings, all_planes(1), {4});
     ASSERT_TRUE(has_highlights(widest));
-    const char* const before = std::getenv("BLUSH_ISA");
-    const std::string kept = before ? before : "";
-    for (const std::string& isa : available_isas()) {
-        setenv("BLUSH_ISA", isa.c_str(), 1);
+    for_each_isa([&](const std::string& isa) {
         EXPECT_TRUE(same_pixels(widest, render_in_steps(lamp_in_glass(), settings, all_planes(1), {4}))) << isa;
-    }
-    before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
+    });
 }
 
 TEST(SmoothHighlights, ContinueASavedFilm) {

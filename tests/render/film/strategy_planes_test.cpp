@@ -5,6 +5,7 @@
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"
+#include "tests/support/images.h"
 
 #include <cstdlib>
 
@@ -128,8 +129,6 @@ TEST(StrategyPlanes, SeparateWhatPathGuidingFinds) {
 }
 
 TEST(StrategyPlanes, DoNotChangeTheBeautyAndAreDeterministic) {
-    const char* const before = std::getenv("BLUSH_ISA");
-    const std::string kept = before ? before : "";
     for (const auto& [name, spp] : {std::pair{"cornell", 6}, {"pool", 4}, {"metal-ring", 4}}) {
         SCOPED_TRACE(name);
         const Scene scene = shipped_scene(name);
@@ -138,11 +137,7 @@ TEST(StrategyPlanes, DoNotChangeTheBeautyAndAreDeterministic) {
         EXPECT_TRUE(without.strategies.empty());
         EXPECT_EQ(without.rgba, with.rgba);
         EXPECT_EQ(render_strategies(scene, settings, true, 3).strategies, with.strategies) << "threads";
-        for (const std::string& isa : available_isas()) {
-            setenv("BLUSH_ISA", isa.c_str(), 1);
-            EXPECT_EQ(render_strategies(scene, settings).strategies, with.strategies) << isa;
-        }
-        before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
+        for_each_isa([&](const std::string& isa) { EXPECT_EQ(render_strategies(scene, settings).strategies, with.strategies) << isa; });
     }
 }
 

@@ -3,9 +3,9 @@
 
 #include "render/materials/material_table.h"
 #include "tests/render/studio.h"
+#include "tests/support/images.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -45,13 +45,7 @@ TEST(LightGroups, DoNotChangeTheBeautyAndAreDeterministic) {
     const RenderSettings settings = settings_for(40, 24, 6);
     const Frame with = render_frame(studio.scene, settings);
     EXPECT_EQ(render_frame(studio.scene, settings, 3).groups, with.groups) << "threads";
-    const char* const before = std::getenv("BLUSH_ISA");
-    const std::string kept = before ? before : "";
-    for (const std::string& isa : available_isas()) {
-        setenv("BLUSH_ISA", isa.c_str(), 1);
-        EXPECT_EQ(render_frame(studio.scene, settings).groups, with.groups) << isa;
-    }
-    before ? setenv("BLUSH_ISA", kept.c_str(), 1) : unsetenv("BLUSH_ISA");
+    for_each_isa([&](const std::string& isa) { EXPECT_EQ(render_frame(studio.scene, settings).groups, with.groups) << isa; });
 
     Renderer split({.threads = 2, .planes = {}});
     split.update(studio.scene, settings);
