@@ -1,6 +1,7 @@
 // The page of a handout.
 #include "app/commands/base64.h"
 #include "app/commands/converge/report.h"
+#include "app/commands/error_text.h"
 #include "app/commands/lesson/handout.h"
 #include "measure/plot/plot_svg.h"
 
@@ -55,18 +56,10 @@ std::string inline_html(const std::string& text) {
     return html + escaped_markup(plain);
 }
 
-// "0.0123 (0.0118 to 0.0129)"
-std::string with_interval(double value, double low, double high) { return fmt::format("{:.3g} ({:.3g} to {:.3g})", value, low, high); }
-
 // What each picture is worth: its samples and its error.
 std::string worth(const HandoutStep& s) {
     std::string text = fmt::format("{} × {} pixels, {} samples per pixel in {:.2g} s", s.width, s.height, s.samples, s.seconds);
-    const ErrorEstimate& e = s.error;
-    if (e.rmse_known) text += ", RMSE " + with_interval(e.rmse, e.rmse_low, e.rmse_high);
-    if (e.known) text += ", relMSE " + with_interval(e.relmse, e.low, e.high);
-    if (e.misses_highlights) text += ", error not known: small highlights of lamps may be missing";
-    if (!e.known && !e.rmse_known && !e.misses_highlights) text += ", error not known: too few samples";
-    text += ".";
+    text += ", " + error_text(s.error, 3) + ".";
     if (!s.missing_light.empty()) text += fmt::format(" Some light cannot be found: {}.", s.missing_light);
     return escaped_markup(text);
 }

@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/commands/denoising.h"
+#include "app/commands/error_text.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/json_output.h"
 #include "app/commands/load_scene.h"
@@ -205,10 +206,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
     const LoopResult& r = rendered.loop;
     fmt::print("{}: {}x{}, {} spp in {:.2f} s, {:.2f} Mpaths/s", c.output, r.frame.width, r.frame.height, r.samples, r.seconds,
                double(r.frame.rays.camera) / std::max(r.seconds, 1e-9) * 1e-6);
-    const ErrorEstimate& e = r.frame.error;
-    if (e.known) fmt::print(", estimated relMSE {:.2g} ({:.2g} to {:.2g})", e.relmse, e.low, e.high);
-    if (e.rmse_known) fmt::print(", RMSE {:.2g} ({:.2g} to {:.2g})", e.rmse, e.rmse_low, e.rmse_high);
-    if (e.misses_highlights) fmt::print(", error not known: small highlights of lamps may be missing");
+    fmt::print(", {}", error_text(r.frame.error, 2));
     if (!r.frame.missing_light.empty()) fmt::print(", some light cannot be found");
     if (rendered.denoised) fmt::print(", {}", denoised_summary(*rendered.denoised));
     fmt::print("{}\n", r.complete ? "" : ", partial");

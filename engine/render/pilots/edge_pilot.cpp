@@ -37,6 +37,12 @@ struct Samples {
 struct Noise {
     double mse = 0, relmse = 0, work = 0;
 
+    void add(double variance, double scale) {
+        mse += variance;
+        relmse += variance / scale;
+    }
+    // Falls where work pays.
+    double cost() const { return mse * relmse * work * work; }
     // True if a fall of a pixel's variance is worth so many more rays for each sample.
     bool is_worth(double gain, double mean, double rays) const {
         const double relative_gain = gain / (mean * mean + dark_squared);
@@ -49,6 +55,14 @@ struct MeasuredPixel {
     int x = 0, y = 0;
     double sum = 0, squares = 0, low = std::numeric_limits<double>::infinity(), high = 0, rays = 0;
     std::vector<std::pair<double, Vec3d>> met; // luminance and radiance of those that met light behind smooth surfaces
+    // Of the emission; mean of all light; 2 R / E of edge_pilot.h.
+    double variance = 0, mean = 0, cancelled = 0;
+    int samples = 0; // of the emission for each sample; 0: its path's own
+
+    // With so many samples.
+    double variance_with(int each) const { return variance * std::min(1.0, 1.0 / each + cancelled); }
+    // Of relative squares.
+    double scale() const { return mean * mean + dark_squared; }
 };
 constexpr int measured_samples = 128;
 constexpr double significant_sigmas = 2; // of what was sighted, beyond what the samples met
@@ -81,11 +95,15 @@ private:
     bool find_edges(EdgePixels& pixels);
     void choose_measured(const Sightings& sightings);
     void measure(MeasuredPixel& pixel, TileScratch& scratch) const;
-    // How many samples of its emission pay; 0: none.
-    int highlight_samples_of(const MeasuredPixel& pixel) const;
-    void add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const;
+    void estimate(MeasuredPixel& pixel) const;
+    std::vector<SmallHighlights::Band> unmeasured(const Sightings& sightings) const;
+    double unexplained_variance(const Sightings& sightings) const;
+    Noise noise_with_highlights(double unexplained) const;
+    void choose_samples(const Noise& before);
     bool find_highlights(const Sightings& sightings, EdgesFound& found);
     const MeasuredPixel* measured_at(int x, int y) const;
+    // Of the image's rate of highlights.
+    double share_of_sample() const { return 1 / (double(place_.size()) * measured_samples); }
 
     KernelContext context_, chains_, emission_;
     SceneTables tables_; // of the emission
@@ -95,7 +113,7 @@ private:
     const std::function<bool()>& wanted_;
     Samples seen_;              // emission of the film
     Samples paths_, emissions_; // of the coarse image
-    Noise noise_;
+    Noise noise_, other_noise_; // of all light; of all but emission that delta lobes lead to
     std::vector<MeasuredPixel> measured_;
     std::vector<int32_t> place_; // by pixel: in `measured_`; -1: none
 };
@@ -131,10 +149,12 @@ bool Pilot::render_coarse() {
     noise_.work /= coarse_samples * pixels;
     for (int y = 0; y < paths_.height; ++y)
         for (int x = 0; x < paths_.width; ++x) {
-            const double a = paths_.at(x, y, 0), b = paths_.at(x, y, 1), mean = (a + b) / 2, variance = (a - b) * (a - b) / 2;
-            noise_.mse += variance / pixels;
-            noise_.relmse += variance / (mean * mean + dark_squared) / pixels;
+            const double a = paths_.at(x, y, 0), b = paths_.at(x, y, 1), scale = (a + b) * (a + b) / 4 + dark_squared;
+            const double other = a - emissions_.at(x, y, 0) - b + emissions_.at(x, y, 1);
+            noise_.add((a - b) * (a - b) / 2 / pixels, scale);
+            other_noise_.add(other * other / 2 / pixels, scale);
         }
+    other_noise_.work = noise_.work;
     return true;
 }
 
@@ -231,7 +251,8 @@ void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
     scratch.bounces.reset();
 }
 
-int Pilot::highlight_samples_of(const MeasuredPixel& pixel) const {
+// Once all are measured.
+void Pilot::estimate(MeasuredPixel& pixel) const {
     double low = pixel.low, high = pixel.high;
     for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
         for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
@@ -239,33 +260,86 @@ int Pilot::highlight_samples_of(const MeasuredPixel& pixel) const {
                 low = std::min(low, near->low);
                 high = std::max(high, near->high);
             }
-    if (low == high) return 0;
-    const double n = measured_samples + 2, mean = (pixel.sum + low + high) / n,
-                 variance = (pixel.squares + low * low + high * high) / n - mean * mean, other = other_light(pixel.x, pixel.y);
-    const auto pays = [&](double share_of_variance, int samples) {
-        return noise_.is_worth(variance * share_of_variance, mean + other, samples * pixel.rays);
-    };
-    constexpr double few = highlight_samples, many = bright_highlight_samples;
-    if (!pays(1 - 1 / few - 2 * other / (high - low), highlight_samples + 1)) return 0;
-    return pays(1 / few - 1 / many, bright_highlight_samples - highlight_samples) ? bright_highlight_samples : highlight_samples;
+    const double other = other_light(pixel.x, pixel.y), n = measured_samples + 2, mean = (pixel.sum + low + high) / n;
+    pixel.mean = mean + other;
+    if (low == high) return;
+    pixel.variance = std::max(0.0, (pixel.squares + low * low + high * high) / n - mean * mean);
+    pixel.cancelled = 2 * other / (high - low);
 }
 
-// Sightings that the samples of the measured pixels do not explain: as far as their rate is significantly larger than that of what the
-// samples met. Light of a sighting may be met an octave brighter or darker.
-void Pilot::add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const {
+// Sightings that the samples of the measured pixels do not explain, by octave: as far as their rate is significantly larger than that of
+// what the samples met. Light of a sighting may be met an octave brighter or darker.
+std::vector<SmallHighlights::Band> Pilot::unmeasured(const Sightings& sightings) const {
+    constexpr size_t octaves = SmallHighlights::num_bands;
     const SmallHighlights sighted = highlights_of(sightings);
-    std::array<double, SmallHighlights::num_bands> squares{}, met{};
+    std::array<double, octaves> squares{}, met{};
     for (const Sighting& s : sightings.all) squares[SmallHighlights::octave_of(s.luminance)] += s.band.rate * s.band.rate;
-    for (size_t k = 0; k < highlights.bands.size(); ++k) met[k % met.size()] += highlights.bands[k].rate;
-    for (size_t k = 0; k < met.size(); ++k) {
+    for (const MeasuredPixel& pixel : measured_)
+        for (const auto& [luminance, light] : pixel.met) met[SmallHighlights::octave_of(luminance)] += share_of_sample();
+    std::vector<SmallHighlights::Band> result(octaves);
+    for (size_t k = 0; k < octaves; ++k) {
         const SmallHighlights::Band& band = sighted.bands[k];
-        const double near = met[k] + (k > 0 ? met[k - 1] : 0) + (k + 1 < met.size() ? met[k + 1] : 0);
+        const double near = met[k] + (k > 0 ? met[k - 1] : 0) + (k + 1 < octaves ? met[k + 1] : 0);
         const double left = band.rate - near - significant_sigmas * std::sqrt(squares[k]);
-        if (!(left > 0)) continue;
-        SmallHighlights::Band& unmeasured = highlights.bands[k];
-        unmeasured.rate += left;
-        unmeasured.sum = unmeasured.sum + band.sum * (left / band.rate);
+        if (left > 0) result[k] = {left, band.sum * (left / band.rate)};
     }
+    return result;
+}
+
+// Of highlights: what was sighted, beyond what the samples of the measured pixels met.
+double Pilot::unexplained_variance(const Sightings& sightings) const {
+    double variance = 0;
+    for (const Sighting& s : sightings.all) variance += s.band.rate * s.luminance * s.luminance;
+    for (const MeasuredPixel& pixel : measured_)
+        for (const auto& [luminance, light] : pixel.met) variance -= share_of_sample() * luminance * luminance;
+    return std::max(0.0, variance);
+}
+
+// Of the image if no measured pixel takes more samples. Unexplained highlights are taken to lie in light like that of the measured.
+Noise Pilot::noise_with_highlights(double unexplained) const {
+    double variance = 0, relative = 0;
+    for (const MeasuredPixel& pixel : measured_) {
+        variance += pixel.variance;
+        relative += pixel.variance / pixel.scale();
+    }
+    const double share = 1 / double(place_.size()), all = share + (variance > 0 ? unexplained / variance : 0);
+    return {other_noise_.mse + share * variance + unexplained, other_noise_.relmse + relative * all, other_noise_.work};
+}
+
+// More samples of the emission in a pixel.
+struct Step {
+    MeasuredPixel* pixel = nullptr;
+    int samples = 0;
+    double gain = 0, relative_gain = 0, work = 0; // of the image
+};
+
+// Steps by what they gain for their work, as far as mse x relmse x work^2 is smallest. Each may pay only with those after it: half of the
+// highlights leave half of the noise.
+void Pilot::choose_samples(const Noise& before) {
+    const double share = 1 / double(place_.size());
+    std::vector<Step> steps;
+    for (MeasuredPixel& pixel : measured_) {
+        double left = pixel.variance;
+        for (const int samples : {highlight_samples, bright_highlight_samples}) {
+            const double next = pixel.variance_with(samples), gain = (left - next) * share;
+            const int added = samples == highlight_samples ? samples + 1 : samples - highlight_samples;
+            if (!(gain > 0)) break;
+            steps.push_back({&pixel, samples, gain, gain / pixel.scale(), added * pixel.rays * share});
+            left = next;
+        }
+    }
+    const auto worth = [&](const Step& s) { return (s.gain / before.mse + s.relative_gain / before.relmse) / s.work; };
+    std::ranges::stable_sort(steps, std::ranges::greater{}, worth);
+    Noise now = before;
+    double best = now.cost();
+    size_t taken = 0;
+    for (size_t k = 0; k < steps.size(); ++k) {
+        now.mse -= steps[k].gain;
+        now.relmse -= steps[k].relative_gain;
+        now.work += steps[k].work;
+        if (now.cost() < best) best = now.cost(), taken = k + 1;
+    }
+    for (size_t k = 0; k < taken; ++k) steps[k].pixel->samples = std::max(steps[k].pixel->samples, steps[k].samples);
 }
 
 bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
@@ -273,13 +347,20 @@ bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
     if (!workers_.for_each(int64_t(measured_.size()), wanted_,
                            [&](int64_t i, unsigned worker) { measure(measured_[size_t(i)], *scratch_[worker]); }))
         return false;
-    const double share = 1 / (double(place_.size()) * measured_samples);
+    for (MeasuredPixel& pixel : measured_) estimate(pixel);
+    choose_samples(noise_with_highlights(unexplained_variance(sightings)));
+    const std::vector<SmallHighlights::Band> ordinary = unmeasured(sightings);
+    const double share = share_of_sample();
     for (const MeasuredPixel& pixel : measured_) {
-        const int samples = highlight_samples_of(pixel);
-        if (samples > 0) found.pixels.add(pixel.x, pixel.y, samples);
-        for (const auto& [luminance, light] : pixel.met) found.highlights.add(luminance, {share, light * share}, std::max(samples, 1));
+        if (pixel.samples > 0) found.pixels.add(pixel.x, pixel.y, pixel.samples);
+        for (const auto& [luminance, light] : pixel.met)
+            found.highlights.add(luminance, {share, light * share}, std::max(pixel.samples, 1));
     }
-    add_unmeasured(sightings, found.highlights);
+    for (size_t k = 0; k < ordinary.size(); ++k) {
+        SmallHighlights::Band& band = found.highlights.bands[k];
+        band.rate += ordinary[k].rate;
+        band.sum = band.sum + ordinary[k].sum;
+    }
     return true;
 }
 
