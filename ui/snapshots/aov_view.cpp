@@ -21,6 +21,7 @@ std::string strategy_name(FoundBy by) {
     case FoundBy::guided: return "Path guiding";
     case FoundBy::nee: return "Next event estimation";
     case FoundBy::manifold: return "Manifold sampling";
+    case FoundBy::light_vertex: return "Light vertices";
     case FoundBy::light_path: return "Light paths";
     }
     return {};

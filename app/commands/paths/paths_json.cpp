@@ -46,6 +46,7 @@ OrderedJson vertex_json(const PathVertex& v) {
     json["panes"] = triple(v.panes);
     json["past_blended"] = triple(v.past);
     json["manifold"] = triple(v.chains);
+    json["light_vertices"] = triple(v.light_vertices);
     const bool sampled = v.scatters != ScatterKind::none, delta = std::isinf(v.pdf);
     json["scatters"] = to_string(v.scatters);
     json["delta"] = delta;

@@ -91,6 +91,7 @@ std::vector<PathTerm> terms_of(const RecordedPath& path, RgbChannel channel) {
             terms.add(k, found, product, terms.of(v.radiance), v.emission_mis, terms.of(v.emission), false);
         if (v.next_event) terms.add_next_event(k, *v.next_event, product);
         terms.add_lump(k, FoundBy::manifold, v.chains, "manifold sampling");
+        terms.add_lump(k, FoundBy::light_vertex, v.light_vertices, "light vertices");
         if (v.end == PathEnd::none) product.scatter(v);
     }
     terms.add_lump(path.vertices.empty() ? 0 : path.vertices.size() - 1, FoundBy::light_path, path.light_paths, "light paths");

@@ -104,6 +104,7 @@ struct Logger {
             line("  light      contributes {}, {} over {:.6g} m  pdf {:.6g}, BSDF pdf {:.6g}  MIS weight {:.6g}", rgb(step.direct),
                  visibility(step, vertex.arrived), step.shadow_distance, w.light_pdf, w.light_bsdf_pdf, w.light);
         if (has_light<float>(vertex.chains)) line("  chains     contribute {} by manifold sampling", rgb(vertex.chains));
+        if (has_light<float>(vertex.light_vertices)) line("  chains     contribute {} by light vertices", rgb(vertex.light_vertices));
         const bool roulette = vertex.bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off;
         if (roulette && w.survival < 1) line("  roulette   {} goes on with probability {:.6g}", to_string(settings.roulette), w.survival);
         if (step.non_finite) {

@@ -20,7 +20,7 @@ std::string_view to_string(PathEnd end) {
 
 Vec3 PathVertex::received() const {
     const Vec3 connected = next_event ? next_event->arrived : Vec3{0, 0, 0};
-    return emission + connected + panes + past + chains;
+    return emission + connected + panes + past + chains + light_vertices;
 }
 
 bool RecordedPath::is_valid() const {
@@ -37,6 +37,7 @@ LightByStrategy by_strategy(const RecordedPath& path) {
         add(FoundBy::guided, hit * double(v.guided));
         if (v.next_event) add(FoundBy::nee, to_double(v.next_event->arrived));
         add(FoundBy::manifold, to_double(v.chains));
+        add(FoundBy::light_vertex, to_double(v.light_vertices));
     }
     add(FoundBy::light_path, to_double(path.light_paths));
     return sums;
@@ -50,7 +51,7 @@ std::vector<Vec3d> by_length(const RecordedPath& path, size_t lengths) {
     };
     for (const PathVertex& v : path.vertices) {
         add(size_t(v.bounce), v.emission + v.panes + v.past);
-        add(size_t(v.bounce) + 2, v.chains); // over a mirror or glass
+        add(size_t(v.bounce) + 2, v.chains + v.light_vertices); // over a mirror or glass
         if (v.next_event) add(size_t(v.bounce) + 1, v.next_event->arrived);
     }
     return sums;

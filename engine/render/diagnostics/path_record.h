@@ -70,6 +70,7 @@ struct PathVertex {
     Vec3 panes{0, 0, 0};                 // contribution of panes that the arriving ray passed
     Vec3 past{0, 0, 0};                  // of the background behind blended surfaces
     Vec3 chains{0, 0, 0};                // of manifold sampling
+    Vec3 light_vertices{0, 0, 0};        // of connections to light vertices
     ScatterKind scatters = ScatterKind::none;
     Vec3 factor{0, 0, 0};  // f |cos| / pdf of the sampled direction; of a delta lobe its reflectance over its probability
     float pdf = 0;         // of that direction per solid angle; infinite for a delta lobe
@@ -100,7 +101,8 @@ struct RecordedPath {
 using LightByStrategy = std::array<Vec3d, size_t(found_by_count)>;
 LightByStrategy by_strategy(const RecordedPath& path);
 // Light of a path by its length: element k is light that was scattered k times; the last one contains all longer paths. Chains of
-// manifold sampling count as one event on a mirror or glass. Light paths are not part of it: they do not say how often they were scattered.
+// manifold sampling and of light vertices count as one event on a mirror or glass. Light paths are not part of it: they do not say how
+// often they were scattered.
 std::vector<Vec3d> by_length(const RecordedPath& path, size_t lengths);
 
 } // namespace blush

@@ -13,13 +13,14 @@ namespace blush {
 
 // A vertex of the path and the result of its step. `arrived`: contribution of NEE, black if occluded. `past`:
 // of the background behind blended surfaces, one of which stopped the path. `chains`: of manifold sampling at this vertex, and of emission
-// that it shares (`shared`), which is not in `step`. `panes`: emission of panes that the ray has passed.
+// that it shares (`shared`), which is not in `step`. `light_vertices`: of connections to these. `panes`: emission of panes that the ray has
+// passed.
 struct ReplayedVertex {
     int bounce = 0;
     Path<float> path;
     Hit<float> hit;
     Step<float> step;
-    Vec3 arrived, past{0, 0, 0}, shared{0, 0, 0}, chains{0, 0, 0}, panes{0, 0, 0};
+    Vec3 arrived, past{0, 0, 0}, shared{0, 0, 0}, chains{0, 0, 0}, light_vertices{0, 0, 0}, panes{0, 0, 0};
 };
 
 // Calls visit(vertex) for each vertex while it returns true, at most `longest` times. Returns the radiance so far. Call it from
@@ -58,8 +59,11 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         connect_paths<s, float>(context, scratch, bounce);
         const Vec3d connected = radiance();
         vertex.arrived = to_float(connected - before);
-        if (chains) add_chains<s, float>(context, scratch, *now, bounce);
-        vertex.chains = to_float(radiance() - connected);
+        if (chains) sample_manifolds<s, float>(context, scratch, *now, bounce);
+        const Vec3d chained = radiance();
+        vertex.chains = to_float(chained - connected);
+        if (connects_light_vertices<s>(*context.scene)) add_connections<float>(context, scratch, bounce);
+        vertex.light_vertices = to_float(radiance() - chained);
         if (!visit(vertex)) break;
         std::swap(now, next);
     }

@@ -108,6 +108,7 @@ void VertexRecorder::record_emission(const ReplayedVertex& replayed, const PathV
     v.panes = replayed.panes;
     v.past = replayed.past;
     v.chains = replayed.chains;
+    v.light_vertices = replayed.light_vertices;
     if (!step.emits) return;
     v.emits = true;
     v.emission = step.emitted;

@@ -177,7 +177,8 @@ void Film::add_planes(size_t pixel, int half, const TileScratch& tile, int slot,
     if (planes_.bounces > 0) bounces_.add(place, tile, slot, left.first_scaled, left.scale);
     if (needs_groups() > 0) groups_.add(pixel, half, *tile.groups, slot, left.first_scaled, left.scale);
     if (planes_.strategies)
-        strategies_.add(pixel, half, tile.strategies->light, slot, left.first_scaled, left.scale, int(FoundBy::manifold));
+        strategies_.add(pixel, half, tile.strategies->light, slot, left.first_scaled, left.scale,
+                        int(FoundBy::manifold)); // all from it on are indirect
     if (planes_.roulette) {
         const RouletteColumns& c = *tile.roulette;
         paths_[place] =

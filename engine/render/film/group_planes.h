@@ -5,6 +5,7 @@
 #include "render/kernels/group_columns.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace blush {
@@ -20,9 +21,10 @@ public:
     void reset(size_t pixels, int groups);
     int groups() const { return groups_; }
     // Adds one sample, a slot of the tile whose columns these are; light after `first_scaled`
-    // (0 or 2) or more scatterings is multiplied by `scale` (clamping). All light of plane `indirect` has scattered so often, if there
-    // is one: manifold sampling finds it before the direct light is complete.
-    void add(size_t pixel, int half, const GroupColumns& columns, int slot, int first_scaled, double scale, int indirect = -1);
+    // (0 or 2) or more scatterings is multiplied by `scale` (clamping). All light of planes `first_indirect` and
+    // above has scattered so often: manifold sampling and light vertices find it before the direct light is complete.
+    void add(size_t pixel, int half, const GroupColumns& columns, int slot, int first_scaled, double scale,
+             int first_indirect = std::numeric_limits<int>::max());
 
     ExactSum3& sum(size_t pixel, int half, size_t group) { return sums_[place(pixel, half) + group]; }
     const ExactSum3& sum(size_t pixel, int half, size_t group) const { return sums_[place(pixel, half) + group]; }

@@ -54,7 +54,7 @@ TEST(PathLog, MatchesTheRadianceThatTheFilmReceives) {
 TEST(PathLog, MatchesTheFilmOnCaustics) {
     constexpr int width = 32, height = 20;
     constexpr int64_t sample = 5;
-    int by_light_paths = 0, by_chains = 0;
+    int by_light_paths = 0, by_chains = 0, by_vertices = 0;
     for (const std::string name : {"pool", "bulb", "metal-ring", "deep pool"}) {
         const bool vertices = name == "deep pool";
         const Scene scene = vertices ? deep_pool() : shipped_scene(name);
@@ -73,11 +73,13 @@ TEST(PathLog, MatchesTheFilmOnCaustics) {
             const float* film = &frame.rgba[4 * (size_t(y) * width + size_t(x))];
             expect_radiance(log, film, 1e-5f, name);
             by_light_paths += log.find("  camera     receives") != std::string::npos;
+            by_vertices += log.find("by light vertices") != std::string::npos;
             by_chains += log.find("by manifold sampling") != std::string::npos;
         }
     }
     EXPECT_GT(by_light_paths, 5);
     EXPECT_GT(by_chains, 3);
+    EXPECT_GT(by_vertices, 3);
 }
 
 TEST(PathLog, SaysHowMuchLightBlendedSurfacesLeave) {

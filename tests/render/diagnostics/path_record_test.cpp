@@ -24,9 +24,10 @@ RecordedPath path_of_all_light() {
     second.next_event.emplace().arrived = grey(32);
     third.bounce = 2;
     third.past = grey(64);
+    third.light_vertices = grey(256);
     path.vertices = {first, second, third};
     path.light_paths = grey(128);
-    path.radiance = grey(127);
+    path.radiance = grey(127 + 256);
     return path;
 }
 
@@ -36,10 +37,11 @@ TEST(PathRecord, SplitsItsLightByStrategy) {
     EXPECT_EQ(found[size_t(FoundBy::guided)].x, 4);
     EXPECT_EQ(found[size_t(FoundBy::nee)].x, 4 + 32);
     EXPECT_EQ(found[size_t(FoundBy::manifold)].x, 8);
+    EXPECT_EQ(found[size_t(FoundBy::light_vertex)].x, 256);
     EXPECT_EQ(found[size_t(FoundBy::light_path)].x, 128);
 }
 
-// Light of manifold sampling goes over at least one more surface.
+// Light of manifold sampling and of light vertices goes over at least one more surface.
 TEST(PathRecord, SplitsItsLightByLength) {
     const RecordedPath path = path_of_all_light();
     const auto at = [&](size_t lengths, size_t k) { return by_length(path, lengths)[k].x; };
@@ -47,13 +49,14 @@ TEST(PathRecord, SplitsItsLightByLength) {
     EXPECT_EQ(at(8, 1), 4 + 16);
     EXPECT_EQ(at(8, 2), 8 + 32 + 64);
     EXPECT_EQ(at(8, 3), 0);
-    EXPECT_EQ(at(2, 1), 127 - 3);
+    EXPECT_EQ(at(8, 4), 256);
+    EXPECT_EQ(at(2, 1), 127 + 256 - 3);
 }
 
 TEST(PathRecord, IsInvalidLikeTheFilms) {
     RecordedPath path = path_of_all_light();
     EXPECT_TRUE(path.is_valid());
-    EXPECT_EQ(path.total().x, 255);
+    EXPECT_EQ(path.total().x, 511);
     EXPECT_EQ(path.vertices[0].received().x, 15);
     path.radiance.y = -1e-9f;
     EXPECT_FALSE(path.is_valid());

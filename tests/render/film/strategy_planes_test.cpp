@@ -87,16 +87,19 @@ TEST(StrategyPlanes, SumToTheBeautyWithPathReuse) {
 }
 
 TEST(StrategyPlanes, SumToTheBeautyWithLightPathsAndManifoldSampling) {
-    bool splats = false, chains = false;
+    bool splats = false, chains = false, vertices = false;
     for (const std::string& name : caustic_scene_names()) {
-        const RenderSettings settings = settings_for(int(width), int(height), 8);
-        const Frame frame = render_strategies(shipped_scene(name), settings, true, 2,
-                                              {.light_path_share = 1.f, .manifold_sampling = true, .light_vertices = true});
+        RenderSettings settings = settings_for(int(width), int(height), 8);
+        const CausticOptions all{.light_path_share = 1.f, .manifold_sampling = true, .light_vertices = true};
+        const Frame frame = render_strategies(shipped_scene(name), settings, true, 2, all);
         EXPECT_LE(largest_difference(frame), of_floats) << name;
         splats = splats || total(frame, FoundBy::light_path) > 0;
         chains = chains || total(frame, FoundBy::manifold) > 0;
+        vertices = vertices || total(frame, FoundBy::light_vertex) > 0;
+        settings.clamp = {0.5f, false};
+        EXPECT_LE(largest_difference(render_strategies(shipped_scene(name), settings, true, 2, all)), of_floats) << name << ", clamped";
     }
-    EXPECT_TRUE(splats && chains);
+    EXPECT_TRUE(splats && chains && vertices);
 }
 
 // With one strategy alone, all light is in its plane, apart from emission in view.
@@ -114,7 +117,8 @@ TEST(StrategyPlanes, HoldWhatTheirStrategyFinds) {
     settings.max_bounces = 0;
     EXPECT_EQ(lit.strategies[size_t(FoundBy::camera_hit)], render_strategies(scene, settings).strategies[size_t(FoundBy::camera_hit)]);
     for (const Frame* frame : {&hits, &lit})
-        for (const FoundBy by : {FoundBy::guided, FoundBy::manifold, FoundBy::light_path}) EXPECT_EQ(total(*frame, by), 0);
+        for (const FoundBy by : {FoundBy::guided, FoundBy::manifold, FoundBy::light_vertex, FoundBy::light_path})
+            EXPECT_EQ(total(*frame, by), 0);
 }
 
 TEST(StrategyPlanes, SeparateWhatPathGuidingFinds) {

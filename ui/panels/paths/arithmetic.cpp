@@ -17,7 +17,7 @@ namespace {
 constexpr size_t most_rows = 64;
 
 const char* shown_name(FoundBy by) {
-    constexpr const char* names[] = {"hit", "guided", "NEE", "manifold", "light path"};
+    constexpr const char* names[] = {"hit", "guided", "NEE", "manifold", "light vertex", "light path"};
     return names[size_t(by)];
 }
 

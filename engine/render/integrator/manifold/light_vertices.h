@@ -181,7 +181,7 @@ template <class F> void add_connections(const KernelContext& context, TileScratc
         if (scratch.blocked[k]) continue;
         const int slot = q.slot[k];
         const ChainLight light{slot, c.light[slot], double(q.r[k]), double(q.g[k]), double(q.b[k])};
-        if (scratch.strategies) add_by_strategy(*scratch.strategies, FoundBy::manifold, slot, light.r, light.g, light.b);
+        if (scratch.strategies) add_by_strategy(*scratch.strategies, FoundBy::light_vertex, slot, light.r, light.g, light.b);
         add_chained(context, scratch, light, bounce + 2 + (c.chain[slot] >> chain_count_shift));
     }
 }

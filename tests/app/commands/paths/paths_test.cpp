@@ -97,11 +97,11 @@ TEST(Paths, HasTheKeysOfItsReference) {
         EXPECT_EQ(keys_of(path),
                   (std::vector<std::string>{"arithmetic", "eye", "light_paths", "radiance", "sample", "shortened", "valid", "vertices"}));
         for (const Json& v : path["vertices"]) {
-            EXPECT_EQ(keys_of(v), (std::vector<std::string>{"arriving",  "beta",     "bounce",   "color",    "delta",
-                                                            "direction", "distance", "emission", "end",      "factor",
-                                                            "guided",    "manifold", "material", "met",      "next_event",
-                                                            "normal",    "object",   "panes",    "passed",   "past_blended",
-                                                            "pdf",       "position", "roulette", "scatters", "shading_normal"}));
+            EXPECT_EQ(keys_of(v), (std::vector<std::string>{
+                                      "arriving", "beta",       "bounce",   "color",    "delta",          "direction", "distance",
+                                      "emission", "end",        "factor",   "guided",   "light_vertices", "manifold",  "material",
+                                      "met",      "next_event", "normal",   "object",   "panes",          "passed",    "past_blended",
+                                      "pdf",      "position",   "roulette", "scatters", "shading_normal"}));
             emission |= v["emission"].is_object();
             roulette |= v["roulette"].is_object();
             delta |= v["delta"] == true && v["pdf"].is_null();
