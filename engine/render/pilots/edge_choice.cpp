@@ -36,7 +36,7 @@ FeatureUse EdgeChoice::report() const {
     else if (!pixels_)
         use.why = "a pilot finds the pixels after the first sample";
     else if (pixels_->empty())
-        use.why = "pilot: the edges of visible light sources have too small a share of the noise";
+        use.why = "pilot: edges and highlights of visible light sources have too small a share of the noise";
     else {
         std::string pixels;
         const auto add = [&](const char* where, int samples, const char* rays) {

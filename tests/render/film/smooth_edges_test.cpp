@@ -340,7 +340,7 @@ TEST(SmoothEdges, NeedNoPilotWhereTheyCannotGain) {
     EXPECT_EQ(decided(lamp(), settings_for(64, 48, 4)).why, "switched off");
     Scene dark = lamp_over_floor();
     dark.view = looking({0, 0, 3}, {0, -0.8f, 1}, 0.3f);
-    EXPECT_EQ(decided(dark, settings).why, "pilot: the edges of visible light sources have too small a share of the noise");
+    EXPECT_EQ(decided(dark, settings).why, "pilot: edges and highlights of visible light sources have too small a share of the noise");
 
     Scene lit;
     place(lit, floor_quad(4, -0.8f), lambert(0.5f));

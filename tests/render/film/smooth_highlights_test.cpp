@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -229,6 +230,18 @@ TEST(SmoothHighlights, AreLeftOutWhereTheyDoNotFit) {
     EXPECT_TRUE(has_highlights(render(lamps_in_a_mirror(), settings).frame));
     settings.smooth_edges = false;
     EXPECT_EQ(decision(render(lamps_in_a_mirror(), settings).frame), "switched off");
+}
+
+// Most of the noise of the glass is of thousands of faint images of its lamp, which the pilot sights and hardly ever meets. In the ring all
+// of it is of those that it has measured.
+TEST(SmoothHighlights, TakeTheMostSamplesOnlyWhereTheNoiseIs) {
+    const auto bright = [](const std::string& why) { return why.find(fmt::format(", {} paths", bright_highlight_samples)) < why.size(); };
+    const RenderSettings settings = smooth(settings_for(320, 180, 2));
+    const Frame glass = render_in_steps(shipped_scene("wine-glass"), settings, {.threads = 2}, {2});
+    EXPECT_TRUE(has_highlights(glass)) << decision(glass);
+    EXPECT_FALSE(bright(decision(glass))) << decision(glass);
+    const Frame ring = render_in_steps(shipped_scene("metal-ring"), settings, {.threads = 2}, {2});
+    EXPECT_TRUE(bright(decision(ring))) << decision(ring);
 }
 
 // Without, both halves miss them (highlight_pilot_test.cpp).
