@@ -30,7 +30,7 @@ std::string decision(const Frame& frame) {
     const auto found = std::ranges::find(*frame.feature_report, "smooth edges", &FeatureUse::name);
     return found == frame.feature_report->end() ? "" : found->why;
 }
-bool has_highlights(const Frame& frame) { return decision(frame).find("highlights") < decision(frame).size(); }
+bool has_highlights(const Frame& frame) { return decision(frame).find("paths a sample") < decision(frame).size(); }
 
 void place_lamp(Scene& scene, const Vec3& position, float radius, float intensity) {
     Light light;
