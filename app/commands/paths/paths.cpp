@@ -155,7 +155,7 @@ void print_paths(const PixelPaths& p) {
     fmt::print("mean of {} samples {}\n", p.sum.paths, rgb_text(p.sum.mean));
     if (p.sum.invalid > 0) fmt::print("{} samples are not finite or negative: the film leaves them out\n", p.sum.invalid);
     for (size_t k = 0; k < p.sum.by_strategy.size(); ++k)
-        if (p.sum.by_strategy[k] != Vec3d{0, 0, 0}) fmt::print("  {:10} {}\n", found_by_names[k], rgb_text(p.sum.by_strategy[k]));
+        if (p.sum.by_strategy[k] != Vec3d{0, 0, 0}) fmt::print("  {:12} {}\n", found_by_names[k], rgb_text(p.sum.by_strategy[k]));
     fmt::print("film of these samples {}, relative difference {:.1e}\n", rgb_text(p.film), relative_difference(p));
     for (const std::string& what : p.left_out) fmt::print("not replayed: {}\n", what);
     if (p.image) fmt::print("image with that {}\n", rgb_text(*p.image));

@@ -117,7 +117,7 @@ std::string path_text(const RecordedPath& path, RgbChannel channel) {
     const std::vector<PathTerm> terms = terms_of(path, channel);
     std::string text = fmt::format("sample {}, {}: {} vertices\n", path.sample, to_string(channel), path.vertices.size());
     for (const PathTerm& term : terms)
-        text += fmt::format("  vertex {} {:10} {}\n", term.vertex, found_by_names[size_t(term.by)], term.text);
+        text += fmt::format("  vertex {} {:12} {}\n", term.vertex, found_by_names[size_t(term.by)], term.text);
     if (terms.empty()) text += "  finds no light\n";
     if (terms.size() > 1) text += fmt::format("  sum {}\n", digits(channel_of(path.total(), channel)));
     if (!path.is_valid()) text += "  the film leaves it out: it is not finite or negative\n";

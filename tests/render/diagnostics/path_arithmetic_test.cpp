@@ -41,7 +41,7 @@ TEST(PathArithmetic, ReproducesTheLessonsExample) {
         ASSERT_EQ(terms.size(), 1u);
         EXPECT_EQ(terms[0].text, "0.7 x 0.9 x 12 = 7.56");
         EXPECT_FLOAT_EQ(terms[0].value, 7.56f);
-        EXPECT_NE(path_text(path, RgbChannel::red).find("vertex 2 camera_hit 0.7 x 0.9 x 12 = 7.56\n"), std::string::npos)
+        EXPECT_NE(path_text(path, RgbChannel::red).find("vertex 2 camera_hit   0.7 x 0.9 x 12 = 7.56\n"), std::string::npos)
             << path_text(path, RgbChannel::red);
     }
     EXPECT_GT(found, 10);

@@ -8,6 +8,7 @@
 #include "ui/window/theme.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -17,7 +18,8 @@ namespace {
 constexpr size_t most_rows = 64;
 
 const char* shown_name(FoundBy by) {
-    constexpr const char* names[] = {"hit", "guided", "NEE", "manifold", "light vertex", "light path"};
+    constexpr std::array names{"hit", "guided", "NEE", "manifold", "light vertex", "light path"};
+    static_assert(names.size() == size_t(found_by_count));
     return names[size_t(by)];
 }
 

@@ -8,6 +8,7 @@
 #include "ui/window/theme.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -107,14 +108,15 @@ void draw_splits(PanelContext& c, const PathSet& set) {
                              : k + 1 == set.sum.by_length.size() ? fmt::format("{}+", k)
                                                                  : fmt::format("{}", k),
                              set.sum.by_length[k]);
-    constexpr const char* names[] = {"BSDF", "guided", "NEE", "manifold", "light paths"};
+    constexpr std::array names{"BSDF", "guided", "NEE", "manifold", "light vertices", "light paths"};
+    static_assert(names.size() == std::tuple_size_v<LightByStrategy>);
     for (size_t k = 0; k < set.sum.by_strategy.size(); ++k) strategies.emplace_back(names[k], set.sum.by_strategy[k]);
     draw_split(c, "Paths/Bounces", "Mean by the number of bounces", lengths, whole,
                "Share of the mean's luminance. Seen: the camera sees the light itself.");
     draw_split(
         c, "Paths/Strategies", "Mean by strategy", strategies, whole,
         "Share of the mean's luminance, by the strategy that found it: a ray that met the light after BSDF sampling or path guiding, NEE, "
-        "or manifold sampling.");
+        "manifold sampling, light vertices or light paths.");
 }
 
 // The pixel in the newest image, if it is that of the click.
