@@ -13,6 +13,13 @@ constexpr float own_share = 0.2f / 24.2f;
 // Values whose fourth powers (also of values a thousand times smaller) fit into single precision.
 constexpr double max_value = 0x1p28, min_value = 0x1p-16;
 constexpr double target_value = 0x1p16; // the middle of that range
+// A squared half difference that is this many times the mean of those around it is one of a firefly.
+constexpr float firefly_ratio = 25;
+// With fewer samples in a pixel its other half knows too little.
+constexpr float min_samples = 16;
+// The divisor of relmse is that of the half without the firefly, but not smaller than this share of the neighbourhood's value: at
+// the edge of a lamp the darker half may have missed the lamp.
+constexpr float least_share = 1.f / 3;
 
 double total(const Wide& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
 double largest_of(const Wide& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
@@ -65,9 +72,11 @@ struct RowSums {
 class BandSummer {
 public:
     BandSummer(const HalfBufferImage& image, double scale)
-        : image_(image), scale_(scale), divisor_(scale), neighborhood_(image.width, image.height), above_(image.width),
-          now_(image.width), around_{PixelRow(image.width), PixelRow(image.width)}, root_(image.width), pixels_(image.width) {
+        : image_(image), scale_(scale), divisor_(scale), neighborhood_(image.width, image.height), noise_(image.width, image.height),
+          above_(image.width), now_(image.width), around_{PixelRow(image.width), PixelRow(image.width)}, noise_around_(around_),
+          root_(image.width), pixels_(image.width) {
         rows_.fill(HalfBufferRow(image.width));
+        for (ChannelRows& squares : squares_) squares.fill(PixelRow(image.width));
     }
 
     ErrorSums sum(int first, int last) {
@@ -92,8 +101,20 @@ private:
     HalfBufferRow& row_at(int y) { return rows_[size_t(y % kept)]; }
 
     void load_row(int y) {
-        image_.load(y, float(scale_), row_at(y));
-        neighborhood_.add_row(row_at(y).own, y);
+        HalfBufferRow& row = row_at(y);
+        image_.load(y, float(scale_), row);
+        ChannelRows& squares = squares_[size_t(y % kept)];
+        const float* const from_weight_a = row.weight_a.pixels();
+        for (size_t c = 0; c < 3; ++c) {
+            const float *const a = row.a[c].pixels(), *const b = row.b[c].pixels();
+            float* const to = squares[c].pixels();
+            for (int x = 0; x < image_.width; x += PixelRow::step) {
+                const Wide wa = load<Wide>(from_weight_a + x);
+                store(to + x, squared(load<Wide>(a + x) - load<Wide>(b + x)) * (wa * (1 - wa)));
+            }
+        }
+        neighborhood_.add_row(row.own, y);
+        noise_.add_row(squares, y);
     }
 
     // Also leaves the row's differences in now_.
@@ -108,8 +129,10 @@ private:
             store(to_root + x, sqrt(wa * (1 - wa)));
         }
         for (size_t c = 0; c < 3; ++c) {
+            const PixelRow& squares = squares_[size_t(y % kept)][c];
             neighborhood_.means(c, y, row.own[c], around_);
-            add_channel(row, c, sums);
+            noise_.means(c, y, squares, noise_around_);
+            add_channel(row, squares, c, sums);
         }
         const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
         const float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
@@ -126,8 +149,10 @@ private:
         }
     }
 
-    void add_channel(const HalfBufferRow& row, size_t c, RowSums& sums) {
+    void add_channel(const HalfBufferRow& row, const PixelRow& row_squares, size_t c, RowSums& sums) {
         const float *const from_a = row.a[c].pixels(), *const from_b = row.b[c].pixels(), *const from_own = row.own[c].pixels();
+        const float *const from_squares = row_squares.pixels(), *const noises = noise_around_.mean.pixels();
+        const float* const one_sample = row.one_sample.pixels();
         const float *const roots = root_.pixels(), *const means = around_.mean.pixels(), *const darkest = around_.darkest.pixels();
         float *const to_absolute = now_.absolute[c].pixels(), *const to_relative = now_.relative[c].pixels();
         float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
@@ -138,11 +163,17 @@ private:
         Wide largest = sums.largest;
         for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide a = load<Wide>(from_a + x), b = load<Wide>(from_b + x), own = load<Wide>(from_own + x), mean = load<Wide>(means + x);
-            const Wide root = load<Wide>(roots + x), difference = (a - b) * root, square = squared(difference);
-            // `usual`: divisor of relmse by James-Stein shrinkage (1961); `least`: its lower bound.
-            const Wide near = mean + (own - mean) * own_share, off = squared(own - near);
-            const Wide usual = near + (own - near) * max(Wide(0.f), 1 - 2 * square / max(off, Wide(1e-36f)));
-            const Wide least = min(usual, max(min(own, load<Wide>(darkest + x)), min(a, b)));
+            const Wide root = load<Wide>(roots + x), difference = (a - b) * root, square = load<Wide>(from_squares + x);
+            // `usual`: value in the divisor of relmse, by James-Stein shrinkage (1961) of the pixel or, if one half has a firefly, of
+            // the other half; `least`: its lower bound.
+            const Wide near = mean + (own - mean) * own_share, noise = load<Wide>(noises + x), darker = min(a, b);
+            const auto shrunk = [&](const Wide& value, const Wide& variance) {
+                return near + (value - near) * max(Wide(0.f), 1 - 2 * variance / max(squared(value - near), Wide(1e-36f)));
+            };
+            const Wide of_pixel = shrunk(own, square), of_half = min(of_pixel, max(shrunk(darker, noise), of_pixel * least_share));
+            const WideMask firefly = (square > firefly_ratio * noise) & (load<Wide>(one_sample + x) <= 1 / min_samples);
+            const Wide usual = select(firefly, of_half, of_pixel);
+            const Wide least = min(usual, max(min(own, load<Wide>(darkest + x)), darker));
             const Wide weight = divisor.weight(usual), ab = 4 * squared(root) * (a - mean) * (b - mean);
             store(to_absolute + x, difference);
             store(to_relative + x, difference * sqrt(weight));
@@ -151,7 +182,7 @@ private:
             add(products + x, ab);
             add(relative_products + x, ab * weight);
             add(high + x, square * divisor.weight(least));
-            add(dark + x, squared(min(a, b)));
+            add(dark + x, squared(darker));
             largest = max(largest, own);
         }
         sums.largest = largest;
@@ -203,11 +234,12 @@ private:
     const HalfBufferImage& image_;
     double scale_;
     Divisor divisor_;
-    NeighborhoodFilter neighborhood_;
+    NeighborhoodFilter neighborhood_, noise_; // of the image, of squared half differences
     std::array<HalfBufferRow, kept> rows_;
+    std::array<ChannelRows, kept> squares_; // squared half differences
     Differences above_, now_;
-    NeighborhoodFilter::NeighborhoodMeans around_; // of one channel
-    PixelRow root_;                                // of the product of the halves' weights
+    NeighborhoodFilter::NeighborhoodMeans around_, noise_around_; // of one channel
+    PixelRow root_;                                               // of the product of the halves' weights
     PixelSums pixels_;
     int loaded_ = 0;
     ErrorSums sums_;

@@ -109,6 +109,42 @@ TEST(ErrorSums, MatchThePlainComputation) {
     EXPECT_EQ(sums.unequal, 0);
 }
 
+// Nearly even halves around one pixel, whose first half has a firefly.
+HalfBufferImage firefly(float around, float pixel, float in_firefly, float samples) {
+    return {9, 9, [=](int y, float scale, HalfBufferRow& row) {
+                for (int x = 0; x < 9; ++x) {
+                    const bool middle = x == 4 && y == 4;
+                    const float noise = (x + y) % 2 ? 0.01f : -0.01f;
+                    for (size_t c = 0; c < 3; ++c) {
+                        row.a[c][x] = scale * (middle ? in_firefly : around + noise);
+                        row.b[c][x] = scale * (middle ? pixel : around - noise);
+                        row.own[c][x] = (row.a[c][x] + row.b[c][x]) / 2;
+                    }
+                    row.weight_a[x] = 0.5f;
+                    row.known[x] = 1;
+                    row.one_sample[x] = 1 / samples;
+                }
+            }};
+}
+
+// The darker half tells the value of a pixel with a firefly, if it has samples enough and does not differ too much from the
+// neighbourhood: the divisor of relmse is its square, not that of the neighbourhood.
+TEST(ErrorSums, DivideFirefliesByTheOtherHalf) {
+    const auto relative = [](float around, float pixel, float in_firefly, float samples) {
+        const double others = 3 * 80 * 1e-4 / (around * around + 0.01);
+        return sum_errors(firefly(around, pixel, in_firefly, samples), 0, 9).relative.squares - others;
+    };
+    const auto divided_by = [](double value) { return 3 / (value * value + 0.01); }; // a half difference of 1
+    EXPECT_NEAR(relative(1, 0.5f, 2.5f, 64), divided_by(0.5), 0.02);
+    const double own_share = 0.2 / 24.2; // of a pixel in its neighbourhood
+    // Too few samples; a half that is brighter than the neighbourhood.
+    EXPECT_NEAR(relative(1, 0.5f, 2.5f, 8), divided_by(1 + 0.5 * own_share), 0.01);
+    EXPECT_NEAR(relative(0.3f, 0.5f, 2.5f, 64), divided_by(0.3 + 1.2 * own_share), 0.05);
+    // As at the edge of a lamp: by a third of the neighbourhood.
+    EXPECT_NEAR(relative(30, 0, 60, 64), 900 * divided_by(10), 0.01);
+    EXPECT_NEAR(relative(1, 0.995f, 1.005f, 64), 3 * 2.5e-5, 2e-5); // no firefly
+}
+
 TEST(ErrorSums, OfBandsAddUpToThoseOfTheImage) {
     const Halves halves(37, 50);
     const ErrorSums whole = sum_errors(halves.rows(), 0, 50);
