@@ -5,7 +5,6 @@
 #include "tests/bench/quality/quality_plot.h"
 
 #include "core/files.h"
-#include "measure/plot/plot_svg.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -113,7 +112,8 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--cache", options.cache, "Folder that keeps the reference images of the cases \"image_quality\" and \"quality\"");
     app.add_option("--longest", options.max_seconds,
-                   "Seconds after an edit up to which the case \"quality\" measures; 0: \"after_edits\" without sessions")
+                   "Seconds after an edit up to which the case \"quality\" measures; 0: its references alone, for the cache, and "
+                   "\"after_edits\" without sessions")
         ->capture_default_str();
     app.add_option("--peer", options.peer_images, "JSON of tests/bench/quality/cycles_images.py, for the case \"quality\"")
         ->check(CLI::ExistingFile);
@@ -135,7 +135,7 @@ int run(int argc, char** argv) {
     if (!report) return fail(report.error());
     if (!plot.empty()) {
         if (!report->contains("quality")) return fail({.what = "a plot needs the case \"quality\""});
-        if (const auto written = write_file(plot, to_svg(quality_plot(report->at("quality")))); !written) return fail(written.error());
+        if (const auto written = write_file(plot, quality_chart(report->at("quality"))); !written) return fail(written.error());
     }
     fmt::print("{}\n", markdown ? to_markdown(*report, reported_cases()) : report->dump(2));
     return 0;

@@ -1,13 +1,14 @@
 // Chart of the case "quality".
 #pragma once
 
-#include "measure/plot/plot.h"
 #include "tests/bench/bench.h"
+
+#include <string>
 
 namespace blush::bench {
 
-// FLIP over milliseconds after an edit, from the JSON of run_quality: one curve for each scene and kind of image, the mean over
-// the edits.
-Plot quality_plot(const Json& quality);
+// SVG with a chart of each scene: FLIP over milliseconds after the edit, mean over kinds of edits, of raw and denoised images and of
+// peers' images.
+std::string quality_chart(const Json& quality);
 
 } // namespace blush::bench
