@@ -50,7 +50,8 @@ def simplify(material, described):
         replace_surface(tree, "ShaderNodeBsdfDiffuse", Color=color)
     volume = extensions.get("KHR_materials_volume", {})
     for node in [n for n in tree.nodes if n.bl_idname == "ShaderNodeVolumeAbsorption"]:
-        sigma = [-math.log(max(c, 1e-6)) / volume["attenuationDistance"] for c in volume.get("attenuationColor", [1, 1, 1])]
+        distance = volume.get("attenuationDistance", math.inf)
+        sigma = [-math.log(max(c, 1e-6)) / distance for c in volume.get("attenuationColor", [1, 1, 1])]
         if max(sigma) == 0:
             tree.nodes.remove(node)
             continue

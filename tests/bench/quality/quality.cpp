@@ -168,6 +168,41 @@ Json measure(const BenchScene& scene, const ColorManagement& color, const Option
     return rows;
 }
 
+// Means over kinds of edits, by scene and image.
+Json means_over_edits(const Json& curves) {
+    struct Sum {
+        std::vector<double> first_ms, flip, relmse;
+        Json ms;
+        int edits = 0;
+    };
+    std::vector<std::pair<std::pair<std::string, std::string>, Sum>> sums; // in the order of the rows
+    const auto add = [](std::vector<double>& to, const Json& values) {
+        to.resize(values.size());
+        for (size_t i = 0; i < values.size(); ++i) to[i] += values.at(i).get<double>();
+    };
+    for (const Json& row : curves) {
+        if (!row.contains("flip")) continue;
+        const std::pair<std::string, std::string> key{row.at("scene"), row.at("image")};
+        auto found = std::ranges::find(sums, key, [](const auto& s) { return s.first; });
+        if (found == sums.end()) found = sums.insert(sums.end(), {key, {}});
+        Sum& sum = found->second;
+        add(sum.flip, row.at("flip"));
+        add(sum.relmse, row.at("relmse"));
+        if (row.contains("first_image_ms") && row["first_image_ms"].is_number()) sum.first_ms.push_back(row["first_image_ms"]);
+        sum.ms = row.at("ms");
+        ++sum.edits;
+    }
+    Json rows = Json::array();
+    for (auto& [key, sum] : sums) {
+        Json row{{"scene", key.first}, {"image", key.second}, {"edits", sum.edits}, {"ms", sum.ms}};
+        row["first_image_ms"] = sum.first_ms.empty() ? Json() : Json(rounded(median(sum.first_ms)));
+        for (const auto& [name, values] : {std::pair{"flip", &sum.flip}, {"relmse", &sum.relmse}})
+            for (const double v : *values) row[name].push_back(rounded(v / sum.edits));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 } // namespace
 
 Json run_quality(const Options& options) {
@@ -188,6 +223,7 @@ Json run_quality(const Options& options) {
         for (Json& row : measure(scene, color, options)) result["curves"].push_back(std::move(row));
     }
     for (const std::filesystem::path& file : options.peer_images) result["curves"].push_back(peer_row(file, color));
+    result["means"] = means_over_edits(result["curves"]);
     return result;
 }
 
