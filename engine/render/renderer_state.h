@@ -86,11 +86,12 @@ struct Renderer::State {
     // A sample of this index follows the decisions of the pilots for the sample of the returned index; 0: none.
     int64_t decided_as(int64_t sample) const { return divider > 1 ? 0 : first_as_others ? std::max<int64_t>(sample, 1) : sample; }
     int reuse_group_size(int64_t sample) const {
+        if (learned.kept_seeds()) return 1;
         return divider > 1 ? learned.reuse().first_group_size() : learned.reuse_group_size(decided_as(sample));
     }
-    // True if the first sample uses the field that an edit left over: the pilots have not run. Coarse images do not: they have so few
-    // samples that the caustic, which most of them miss without, would be noise.
-    bool uses_kept_field() const { return divider == 1 && learned.kept_field(); }
+    // True if the first sample uses the field or the seeds that an edit left over: the pilots have not run. Coarse images do not use the
+    // field: they have so few samples that the caustic, which most of them miss without, would be noise.
+    bool uses_kept_field() const { return learned.kept_seeds() || (divider == 1 && learned.kept_field()); }
     SceneTables tables_for(int64_t sample) const {
         return uses_kept_field() ? learned.kept_tables(scene.tables()) : learned.tables(scene.tables(), decided_as(sample));
     }

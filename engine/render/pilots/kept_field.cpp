@@ -58,6 +58,26 @@ FieldEffect dropped_field() {
     return effect;
 }
 
+// True if no light and no caster is new, and those that changed shine and focus as before but for place, intensity and colour.
+bool keeps_chains(const Scene& before, const Scene& after, const Changes& changes) {
+    if (changes.integrator || changes.resolution || !changes.structure.empty() || !changes.meshes.empty() || !changes.textures.empty())
+        return false;
+    const auto all_keep = [](const auto& a, const auto& b, const auto& ids, const auto& keeps) {
+        return std::ranges::all_of(ids, [&](auto id) {
+            const auto *x = a.find(id), *y = b.find(id);
+            return x && y && keeps(*x, *y);
+        });
+    };
+    const auto shines_alike = [](const Light& a, const Light& b) {
+        return same_emission_shape(a, b) && a.enabled == b.enabled && (a.intensity > 0) == (b.intensity > 0);
+    };
+    const auto focuses_alike = [](const Material& a, const Material& b) {
+        return emits(a) == emits(b) && !casts_caustics(a) && !casts_caustics(b);
+    };
+    return all_keep(before.lights, after.lights, changes.lights, shines_alike) &&
+           all_keep(before.materials, after.materials, changes.materials, focuses_alike);
+}
+
 struct EffectOfEdit {
     const Scene &before, &after;
     const CausticCasterTables& casters;
@@ -118,6 +138,7 @@ FieldEffect effect_on_field(const Scene& before, const Scene& after, const Chang
     for (const Id<Light> id : changes.lights) edit.on_light(id);
     if (changes.environment_parameters) edit.on_environment();
     edit.effect.edits = changes.affects_image() ? 1 : 0;
+    edit.effect.same_chains = keeps_chains(before, after, changes);
     return std::move(edit.effect);
 }
 

@@ -19,6 +19,7 @@ struct FieldEffect {
     bool dropped = false;        // nothing is kept
     double factor = 1;           // of the shares of learned directions, in [0, 1]
     std::vector<Bounds> cleared; // world space: learned directions are forgotten there
+    bool same_chains = false;    // the same lights shine through the same mirrors and glass, some of them moved
     bool operator==(const FieldEffect&) const = default;
 };
 

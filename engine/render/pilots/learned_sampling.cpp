@@ -12,6 +12,12 @@
 #include <utility>
 
 namespace blush {
+namespace {
+
+// Of their use, by the factors of edits: below, walks from the seeds of before take too long.
+constexpr double least_share_of_seeds = 0.25;
+
+} // namespace
 
 LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
                                  const CausticOptions& options)
@@ -20,11 +26,21 @@ LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderSce
       adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
 
 void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
+    const bool decided = !before.needs_pilot(2), with_manifolds = before.manifolds_.pays();
+    // Where the first sample was not rendered again, it will probably not be after the edit: it must do without then.
+    const bool renewed = decided && before.renews_first();
+    if (manifolds_.needs_pilot() && effect.same_chains && origin == before.origin_) {
+        if (!decided)
+            kept_seeds_ = std::move(before.kept_seeds_);
+        else if (renewed && with_manifolds)
+            kept_seeds_ = {before.manifolds_.take_seeds(), 1};
+        if (kept_seeds_ && (kept_seeds_->share *= effect.factor) < least_share_of_seeds) kept_seeds_.reset();
+    }
     if (!guiding_.needs_pilot()) return;
-    // Where the first sample was not rendered again, it will probably not be after the edit: it must do without then. Where manifold
-    // sampling finds the caustics, the field finds so little of them in one sample that it is noise.
-    if (const bool used = !before.needs_pilot(2) && before.renews_first() && !before.manifolds_.pays(); !before.guiding_.needs_pilot()) {
-        if (auto field = before.guiding_.take_field(); field && used) kept_.emplace(*std::move(field), before.origin_);
+    // Where manifold sampling finds the caustics, the field finds so little of them in one sample that it is noise.
+    if (!before.guiding_.needs_pilot()) {
+        if (auto field = before.guiding_.take_field(); field && renewed && !with_manifolds)
+            kept_.emplace(*std::move(field), before.origin_);
     } else
         kept_ = std::move(before.kept_);
     if (kept_ && !kept_->follow(effect, origin)) kept_.reset();

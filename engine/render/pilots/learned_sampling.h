@@ -31,11 +31,14 @@ public:
 
     // Takes over what does not depend on the camera. `before`: for an image that differs at most in the view.
     void keep_from(const LearnedSampling& before) { photons_ = before.photons_; }
-    // Takes over the field of path guiding for the first sample. `before`: of the image before the edit; `origin`: of the
-    // scene after it.
+    // Takes over what the first sample begins with: the field of path guiding, or the seeds of manifold sampling. `before`: of the image
+    // before the edit; `origin`: of the scene after it.
     void keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin);
     // The field that an edit left over; null: none, or the pilots have run.
     const KeptField* kept_field() const { return kept_ && guiding_.needs_pilot() ? &*kept_ : nullptr; }
+
+    // The seeds that an edit left over; null: none, or the pilots have run.
+    const ManifoldSeedTable* kept_seeds() const { return kept_seeds_ && manifolds_.needs_pilot() ? &kept_seeds_->table : nullptr; }
 
     // True if a pilot must run before samples of an index below this one.
     bool needs_pilot(int64_t samples) const {
@@ -64,12 +67,16 @@ public:
         const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
         return adjoint_.tables(manifolds_.tables(light_paths_.tables(t, sample), sample), sample);
     }
-    // Images begin without it from now on.
-    void drop_field() { kept_.reset(); }
-    // True if there is a field that the next image may begin with.
-    bool has_field() const { return kept_ || guiding_.pays(); }
-    // The tables for samples before the pilots have run, if kept_field().
+    // Images begin without them from now on.
+    void drop_field() {
+        kept_.reset();
+        kept_seeds_.reset();
+    }
+    // True if there is a field, or are seeds, that the next image may begin with.
+    bool has_field() const { return kept_ || kept_seeds_ || guiding_.pays() || manifolds_.pays(); }
+    // The tables for samples before the pilots have run, if kept_field() or kept_seeds().
     SceneTables kept_tables(SceneTables scene) const {
+        if (kept_seeds()) return manifolds_.kept_tables(scene, kept_seeds_->table);
         scene.guides.learned = kept_->tables();
         return scene;
     }
@@ -88,9 +95,14 @@ public:
 
     // `kept`: samples are rendered with kept_tables().
     FeatureReport report(bool kept = false) const {
-        return {visibility_.report(),  portals_.report(),   guiding_.report(kept ? kept_field() : nullptr),
-                light_paths_.report(), manifolds_.report(), manifolds_.vertex_report(),
-                reuse_.report(),       adjoint_.report()};
+        return {visibility_.report(),
+                portals_.report(),
+                guiding_.report(kept ? kept_field() : nullptr),
+                light_paths_.report(),
+                manifolds_.report(kept ? kept_seeds() : nullptr),
+                manifolds_.vertex_report(),
+                reuse_.report(),
+                adjoint_.report()};
     }
 
 private:
@@ -107,6 +119,11 @@ private:
     CasterSphere scene_sphere_{};
     Vec3d origin_{0, 0, 0};
     std::optional<KeptField> kept_;
+    struct KeptSeeds {
+        ManifoldSeedTable table;
+        double share; // FieldEffect::factor since they were made
+    };
+    std::optional<KeptSeeds> kept_seeds_;
     std::shared_ptr<const CausticPhotons> photons_; // as traced without learned visibility, which depends on the camera; may be null
 };
 

@@ -36,8 +36,14 @@ SceneTables ManifoldChoice::tables(SceneTables scene, int64_t sample) const {
     return scene;
 }
 
-FeatureUse ManifoldChoice::report() const {
+FeatureUse ManifoldChoice::report(const ManifoldSeedTable* kept) const {
     FeatureUse use{.part = "kernel", .name = "manifold sampling", .used = pays(), .why = {}};
+    if (kept) {
+        use.used = true;
+        use.why = "the first sample begins with the seeds of before the edit";
+        use.bytes = int64_t(kept->memory_bytes());
+        return use;
+    }
     if (useless_)
         use.why = useless_;
     else if (!pilot_)

@@ -9,6 +9,7 @@
 #include "scene/render_settings.h"
 
 #include <optional>
+#include <utility>
 
 namespace blush {
 
@@ -40,7 +41,17 @@ public:
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
 
-    FeatureUse report() const;
+    // The seeds of an image whose pilot has found that they pay; this object must not be used any more.
+    ManifoldSeedTable take_seeds() { return std::move(pilot_->seeds); }
+    // The tables for samples before the pilot has run, with the seeds of before an edit. Valid as long as these.
+    SceneTables kept_tables(SceneTables scene, const ManifoldSeedTable& seeds) const {
+        scene.manifolds = seeds.tables(casters_);
+        scene.guides = {};
+        return scene;
+    }
+
+    // `kept`: samples are rendered with kept_tables().
+    FeatureUse report(const ManifoldSeedTable* kept = nullptr) const;
     FeatureUse vertex_report() const;
 
 private:

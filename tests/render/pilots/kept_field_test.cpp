@@ -136,6 +136,29 @@ TEST(FieldEffect, MovedLightsLetItDecay) {
     EXPECT_TRUE(effect(stage, sky).dropped);
 }
 
+TEST(FieldEffect, ChainsStayTheSameWithTheirLightsAndCasters) {
+    const Stage stage;
+    const auto same = [&](const Scene& after) { return effect(stage, after).same_chains; };
+    EXPECT_TRUE(same(stage.brighter()));
+    EXPECT_TRUE(same(stage.with_sun_turned()));
+    EXPECT_TRUE(same(stage.with_material(stage.floor, [](Material& m) { m.base_color = {0.1f, 0.5f, 0.3f}; })));
+    EXPECT_TRUE(same(stage.with_node(stage.box, [](Node& n) { n.local = at({1.5f, 0.3f, 0.5f}, 0.25f); })));
+    Scene other = stage.scene;
+    other.view = looking({1, 2, 5}, {0, 0.5f, 0}, 0.6f);
+    EXPECT_TRUE(same(other));
+    // The tables of lights, or the chains, are others.
+    EXPECT_FALSE(same(stage.with_light(stage.lamp, [](Light& l) { l.enabled = false; })));
+    EXPECT_FALSE(same(stage.with_light(stage.lamp, [](Light& l) { l.intensity = 0; })));
+    EXPECT_FALSE(same(stage.with_light(stage.lamp, [](Light& l) { l.radius = 0; })));
+    EXPECT_FALSE(same(stage.with_node(stage.lamp, [](Node& n) { n.visible = false; })));
+    EXPECT_FALSE(same(stage.with_material(stage.ball, [](Material& m) { m.ior = 1.4f; })));
+    EXPECT_FALSE(same(stage.with_material(stage.floor, [](Material& m) { m.emissive = {1, 1, 1}; })));
+    EXPECT_FALSE(same(stage.with_material(stage.box, [](Material& m) { m.metallic = 1, m.roughness = 0; })));
+    RenderSettings settings = settings_of(4);
+    settings.max_bounces = 5;
+    EXPECT_FALSE(effect(stage, stage.scene, settings).same_chains);
+}
+
 TEST(FieldEffect, GeometryClearsTheCellsThatItTouches) {
     const Stage stage;
     FieldEffect e = effect(stage, stage.with_node(stage.box, [](Node& n) { n.local = at({1.5f, 0.3f, 0.5f}, 0.25f); }));
@@ -264,6 +287,131 @@ TEST(KeptField, OfAnotherLightBiasesNothing) {
     const std::vector<Measured> kept = moments.measured();
     EXPECT_TRUE(same_means(kept, by_chance));
     EXPECT_FALSE(same_means(kept, render(stage.scene, settings_for(32, 24, 256)).blocks(8, 8))) << "the sun did not turn";
+}
+
+RenderSettings with_manifolds(int width, int height, int64_t spp) {
+    RenderSettings settings = guided(width, height, spp);
+    settings.caustics = CausticStrategy::manifold;
+    return settings;
+}
+RendererOptions with_seeds(bool trained) {
+    return {.threads = 2, .planes = {}, .caustics = {.manifold_sampling = true}, .begins_trained = trained};
+}
+FeatureUse seeds_line(Renderer& renderer) { return feature_line(renderer, "manifold sampling"); }
+
+TEST(KeptSeeds, ImagesAfterTheFirstSampleAreThoseOfAFreshStart) {
+    const Stage stage;
+    const RenderSettings settings = with_manifolds(80, 48, 4);
+    for (const Scene& after : {stage.brighter(), stage.with_sun_turned()}) {
+        Renderer untrained(with_seeds(false)), renderer(with_seeds(true));
+        edit(untrained, stage.scene, after, settings);
+        ASSERT_TRUE(untrained.render(0, 1));
+        const Frame first = untrained.resolve();
+        EXPECT_FALSE(seeds_line(untrained).used);
+        ASSERT_TRUE(untrained.render(1, 3));
+        const Frame fresh = untrained.resolve();
+
+        edit(renderer, stage.scene, after, settings);
+        ASSERT_TRUE(renderer.render(0, 1));
+        EXPECT_FALSE(same_pixels(renderer.resolve(), first)) << "nothing was kept";
+        EXPECT_TRUE(seeds_line(renderer).used);
+        EXPECT_GT(seeds_line(renderer).bytes.value_or(0), 0);
+        EXPECT_FALSE(renderer.save_film(0)) << "it depends on the edit";
+        ASSERT_TRUE(renderer.render(1, 3));
+        EXPECT_TRUE(same_pixels(renderer.resolve(), fresh));
+        EXPECT_EQ(seeds_line(renderer).why, seeds_line(untrained).why);
+        EXPECT_TRUE(renderer.save_film(0));
+
+        edit(renderer, stage.scene, after, settings);
+        ASSERT_TRUE(renderer.render(0, 1));
+        ASSERT_TRUE(renderer.settle_first_sample());
+        EXPECT_TRUE(same_pixels(renderer.resolve(), first));
+    }
+}
+
+// Photons do not depend on the camera: after an edit of it the seeds are those that its own pilot would find.
+TEST(KeptSeeds, AfterAnEditOfTheCameraTheFirstSampleIsThatOfThePilots) {
+    Stage stage;
+    // With one light there is no visibility to learn.
+    stage.scene = stage.with_node(stage.lamp, [](Node& n) { n.visible = false; });
+    Scene after = stage.scene;
+    after.view = looking({1, 2, 5}, {0, 0.5f, 0}, 0.6f);
+    const RenderSettings settings = with_manifolds(80, 48, 4);
+    RendererOptions options = with_seeds(true);
+    options.caustics.light_vertices = false;
+    Renderer renderer(options);
+    edit(renderer, stage.scene, after, settings);
+    ASSERT_TRUE(renderer.render(0, 1));
+    ASSERT_TRUE(seeds_line(renderer).used);
+    options.begins_trained = false;
+    options.is_part = true; // its first sample is rendered as the pilots decide
+    Renderer decided(options);
+    decided.update(after, settings);
+    ASSERT_TRUE(decided.render(0, 1));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), decided.resolve()));
+}
+
+// A drag: no pilot runs between the edits, and coarse images use the seeds, too.
+TEST(KeptSeeds, LastWhileTheSunHasNotTurnedFar) {
+    const Stage stage;
+    const RenderSettings settings = with_manifolds(80, 48, 4);
+    Renderer renderer(with_seeds(true));
+    edit(renderer, stage.scene, stage.brighter(), settings);
+    const auto used_after = [&](const Scene& scene, int divider) {
+        renderer.update(scene, settings);
+        renderer.set_divider(divider);
+        EXPECT_TRUE(renderer.render(0, 1));
+        return seeds_line(renderer).used;
+    };
+    EXPECT_TRUE(used_after(stage.brighter(), 4));
+    EXPECT_TRUE(used_after(stage.scene, 1));
+    EXPECT_TRUE(used_after(stage.with_sun_turned(), 4)) << "about half of their use is left";
+    EXPECT_TRUE(used_after(stage.scene, 4)) << "and a quarter";
+    EXPECT_FALSE(used_after(stage.with_sun_turned(), 4));
+    EXPECT_FALSE(used_after(stage.scene, 1)) << "what was dropped stays so";
+}
+
+// Seeds of another sun cost walks and no bias. Through a slab of glass, light from direction cosine c arrives (1 - F(c))^2 times
+// (manifold_sampling_test.cpp).
+TEST(KeptSeeds, OfAnotherSunBiasNothing) {
+    constexpr double ior = 1.5;
+    Scene before;
+    place(before, floor_quad(3), lambert(0.5f));
+    Transform slab = at({0, 1, 0});
+    slab.scale = {20, 0.1f, 20};
+    place(before, cube(false), glass(0, float(ior)), slab);
+    Light light;
+    light.kind = Light::Kind::sun;
+    light.intensity = 4;
+    light.angle_radians = 0.0087f;
+    const auto at_angle = [](double angle) { return aimed({0, 5, 0}, {float(std::sin(angle)), float(-std::cos(angle)), 0}); };
+    const double angle = std::acos(0.8);
+    const Id<Node> sun = place_light(before, light, at_angle(angle - 7 * degree));
+    before.view = looking({0, 0.5f, 0.8f}, {0, 0, 0}, 0.6f);
+    Scene after = before;
+    Node turned = *after.nodes.find(sun);
+    turned.local = at_angle(angle);
+    after.nodes.set(sun, turned);
+
+    RenderSettings settings = with_manifolds(24, 24, 4);
+    settings.max_bounces = 3;
+    BlockMoments moments;
+    Renderer renderer(with_seeds(true));
+    for (uint32_t seed = 0; seed < 48; ++seed) {
+        settings.seed = seed;
+        edit(renderer, before, after, settings);
+        ASSERT_TRUE(renderer.render(0, 1));
+        ASSERT_TRUE(seeds_line(renderer).used);
+        moments.add(image_of(renderer).blocks(24, 24));
+    }
+    const double c = 0.8, g = std::sqrt(ior * ior - 1 + c * c);
+    const double s = (c - g) / (c + g), p = (ior * ior * c - g) / (ior * ior * c + g);
+    const double passed = 1 - (s * s + p * p) / 2;
+    // The Fresnel term over the sun's disk varies by less than the slack.
+    const double expected = 0.5 / std::numbers::pi * 4 * c * passed * passed;
+    const Measured kept = moments.measured()[0];
+    EXPECT_TRUE(is_mean(kept, expected, statistics::significance, 1e-4 * expected));
+    EXPECT_LT(kept.error.x, 0.01 * expected) << "the test sees a bias of a few per cent";
 }
 
 } // namespace
