@@ -70,7 +70,7 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
     begin_learning(field_effect, outdated != Outdated::film);
     highlights.reset();
     info.reset();
-    kernel_name = name_of(*kernel);
+    kernel_name = name_of(kernel_for(tables_for(0)));
     seconds_setup = std::chrono::duration<double>(Clock::now() - begun).count();
 }
 

@@ -172,6 +172,8 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     State& s = *state_;
     if (!s.first_is_trained) return true;
     s.learned.drop_field();
+    s.kernel_name = State::name_of(*s.kernel);
+    s.info.reset();
     s.feature_report.reset();
     return s.render_first_again(wanted);
 }

@@ -316,6 +316,7 @@ TEST(KeptSeeds, ImagesAfterTheFirstSampleAreThoseOfAFreshStart) {
         EXPECT_FALSE(same_pixels(renderer.resolve(), first)) << "nothing was kept";
         EXPECT_TRUE(seeds_line(renderer).used);
         EXPECT_GT(seeds_line(renderer).bytes.value_or(0), 0);
+        EXPECT_TRUE(renderer.info().kernel.ends_with("light paths")) << renderer.info().kernel;
         EXPECT_FALSE(renderer.save_film(0)) << "it depends on the edit";
         ASSERT_TRUE(renderer.render(1, 3));
         EXPECT_TRUE(same_pixels(renderer.resolve(), fresh));
@@ -326,6 +327,7 @@ TEST(KeptSeeds, ImagesAfterTheFirstSampleAreThoseOfAFreshStart) {
         ASSERT_TRUE(renderer.render(0, 1));
         ASSERT_TRUE(renderer.settle_first_sample());
         EXPECT_TRUE(same_pixels(renderer.resolve(), first));
+        EXPECT_FALSE(renderer.info().kernel.ends_with("light paths")) << renderer.info().kernel;
     }
 }
 
