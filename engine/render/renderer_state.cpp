@@ -6,6 +6,7 @@
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
 #include "scene/affine.h"
+#include "scene/changed_records.h"
 
 #include <algorithm>
 #include <optional>
@@ -20,12 +21,6 @@ bool in_mid_pilot(int64_t samples) { return samples >= SampleAllocation::pilot_s
 // True if the camera sees the same surfaces with the same albedo. The background counts as no surface.
 bool keeps_first_hits(const Scene& before, const Scene& after, const Changes& changes) {
     if (!changes.only_light()) return false;
-    const auto all_keep = [](const auto& a, const auto& b, const auto& ids, const auto& keeps) {
-        return std::ranges::all_of(ids, [&](auto id) {
-            const auto *x = a.find(id), *y = b.find(id);
-            return x && y && keeps(*x, *y);
-        });
-    };
     // The camera sees lights with a radius as spheres.
     const auto same_shape = [](const Light& a, const Light& b) {
         return a.kind == b.kind && a.radius == b.radius && a.enabled == b.enabled && a.visible_to_camera == b.visible_to_camera;
@@ -52,7 +47,7 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
     scene.update(now_expanded, now, todo, workers, groups.get());
     field_effect = {};
     field_effect.dropped = true;
-    if (changes && options.begins_trained && learned.has_field())
+    if (changes && options.begins_trained && learned.has_kept())
         field_effect = effect_on_field(*expanded, now_expanded, *changes, scene.tables().guides.casters, scene.origin());
     if (!changes || !keeps_first_hits(*expanded, now_expanded, *changes)) first_hits.reset();
     if (groups) scene.aim(mixing.gains);
@@ -77,7 +72,7 @@ void Renderer::State::begin_film(Clock::time_point begun, Outdated outdated) {
 void Renderer::State::begin_learning(const FieldEffect& effect, bool same_photons) {
     LearnedSampling before = std::exchange(learned, LearnedSampling(settings, scene, full_film(), options.caustics));
     if (same_photons) learned.keep_from(before);
-    if (options.begins_trained) learned.keep_field(std::move(before), effect, scene.origin());
+    if (options.begins_trained) learned.keep_learned(std::move(before), effect, scene.origin());
 }
 
 bool Renderer::update(const Scene& scene, const RenderSettings& asked) {
@@ -151,7 +146,7 @@ std::shared_ptr<const FeatureReport> Renderer::feature_report() {
         film.light_paths = film.light_paths || (s.divider == 1 && s.learned.light_paths().pays()); // before the film has its splats
         FeatureReport feature_report = s.scene.feature_report(s.expanded ? *s.expanded : Scene{}, film);
         feature_report.push_back(s.edges.report());
-        for (FeatureUse& use : s.learned.report(s.uses_kept_field())) feature_report.push_back(std::move(use));
+        for (FeatureUse& use : s.learned.report(s.uses_kept())) feature_report.push_back(std::move(use));
         s.feature_report = std::make_shared<const FeatureReport>(std::move(feature_report));
     }
     return s.feature_report;

@@ -91,9 +91,9 @@ struct Renderer::State {
     }
     // True if the first sample uses the field or the seeds that an edit left over: the pilots have not run. Coarse images do not use the
     // field: they have so few samples that the caustic, which most of them miss without, would be noise.
-    bool uses_kept_field() const { return learned.kept_seeds() || (divider == 1 && learned.kept_field()); }
+    bool uses_kept() const { return learned.kept_seeds() || (divider == 1 && learned.kept_field()); }
     SceneTables tables_for(int64_t sample) const {
-        return uses_kept_field() ? learned.kept_tables(scene.tables()) : learned.tables(scene.tables(), decided_as(sample));
+        return uses_kept() ? learned.kept_tables(scene.tables()) : learned.tables(scene.tables(), decided_as(sample));
     }
     // The kernel for samples of these tables.
     const Kernel& kernel_for(const SceneTables& tables) const {

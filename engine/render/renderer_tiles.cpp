@@ -171,7 +171,7 @@ bool Renderer::State::render_first_again(const Wanted& wanted) {
 bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     State& s = *state_;
     if (!s.first_is_trained) return true;
-    s.learned.drop_field();
+    s.learned.drop_kept();
     s.kernel_name = State::name_of(*s.kernel);
     s.info.reset();
     s.feature_report.reset();
@@ -245,7 +245,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
             return !(s.film_is_uneven = true);
         if (next == 0) {
             s.first_is_rough = s.divider == 1 && !s.first_as_others;
-            s.first_is_trained = s.first_is_rough && s.uses_kept_field();
+            s.first_is_trained = s.first_is_rough && s.uses_kept();
             if (s.options.is_part && s.first_is_rough) {
                 if (s.edges.pixels(1)) s.refine_first_sample(*s.edges.pixels(1));
                 s.first_is_rough = false;

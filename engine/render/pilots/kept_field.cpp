@@ -4,6 +4,7 @@
 #include "render/compile/expanded_lights.h"
 #include "render/lights/caustic_caster_table.h"
 #include "scene/affine.h"
+#include "scene/changed_records.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +63,6 @@ FieldEffect dropped_field() {
 bool keeps_chains(const Scene& before, const Scene& after, const Changes& changes) {
     if (changes.integrator || changes.resolution || !changes.structure.empty() || !changes.meshes.empty() || !changes.textures.empty())
         return false;
-    const auto all_keep = [](const auto& a, const auto& b, const auto& ids, const auto& keeps) {
-        return std::ranges::all_of(ids, [&](auto id) {
-            const auto *x = a.find(id), *y = b.find(id);
-            return x && y && keeps(*x, *y);
-        });
-    };
     const auto shines_alike = [](const Light& a, const Light& b) {
         return same_emission_shape(a, b) && a.enabled == b.enabled && (a.intensity > 0) == (b.intensity > 0);
     };

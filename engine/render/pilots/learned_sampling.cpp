@@ -25,7 +25,7 @@ LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderSce
       light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options), reuse_(settings, scene),
       adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
 
-void LearnedSampling::keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
+void LearnedSampling::keep_learned(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
     const bool decided = !before.needs_pilot(2), with_manifolds = before.manifolds_.pays();
     // Where the first sample was not rendered again, it will probably not be after the edit: it must do without then.
     const bool renewed = decided && before.renews_first();

@@ -33,7 +33,7 @@ public:
     void keep_from(const LearnedSampling& before) { photons_ = before.photons_; }
     // Takes over what the first sample begins with: the field of path guiding, or the seeds of manifold sampling. `before`: of the image
     // before the edit; `origin`: of the scene after it.
-    void keep_field(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin);
+    void keep_learned(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin);
     // The field that an edit left over; null: none, or the pilots have run.
     const KeptField* kept_field() const { return kept_ && guiding_.needs_pilot() ? &*kept_ : nullptr; }
 
@@ -68,12 +68,12 @@ public:
         return adjoint_.tables(manifolds_.tables(light_paths_.tables(t, sample), sample), sample);
     }
     // Images begin without them from now on.
-    void drop_field() {
+    void drop_kept() {
         kept_.reset();
         kept_seeds_.reset();
     }
     // True if there is a field, or are seeds, that the next image may begin with.
-    bool has_field() const { return kept_ || kept_seeds_ || guiding_.pays() || manifolds_.pays(); }
+    bool has_kept() const { return kept_ || kept_seeds_ || guiding_.pays() || manifolds_.pays(); }
     // The tables for samples before the pilots have run, if kept_field() or kept_seeds().
     SceneTables kept_tables(SceneTables scene) const {
         if (kept_seeds()) return manifolds_.kept_tables(scene, kept_seeds_->table);

@@ -5,7 +5,6 @@ and Principled surfaces, smooth glass with absorption. Other lights and environm
 """
 import json
 import math
-import os
 import struct
 
 import bpy
@@ -89,7 +88,3 @@ def build(file):
     camera = bpy.context.scene.camera = bpy.data.objects[name]
     camera.data.clip_start, camera.data.clip_end = 1e-3, 1e4
     return bpy.context.scene
-
-
-def name_of(file):
-    return os.path.basename(file)

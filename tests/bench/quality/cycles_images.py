@@ -31,7 +31,7 @@ parser.add_argument("--timings", type=int, default=3, help="of each resolution; 
 options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 os.makedirs(options.folder, exist_ok=True)
-name = cycles_gltf.name_of(options.scene)
+name = os.path.basename(options.scene)
 scene = cycles_gltf.build(options.scene)
 
 
