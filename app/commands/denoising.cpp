@@ -48,12 +48,15 @@ OrderedJson denoised_json(const Denoised& denoised) {
     json["precision"] = denoised.precision;
     json["tiles"] = denoised.tiles;
     json["seconds"] = denoised.seconds;
+    json["bias_corrected"] = denoised.bias_corrected;
     json["energy_change_percent"] = energy_change_percent(denoised);
     json["sanitised"] = denoised.sanitised;
     return json;
 }
 
-std::string denoised_by(const Denoised& denoised) { return denoised.network + ", " + denoised.precision; }
+std::string denoised_by(const Denoised& denoised) {
+    return fmt::format("{}, {}{}", denoised.network, denoised.precision, denoised.bias_corrected ? ", bias corrected" : "");
+}
 
 std::string denoised_summary(const Denoised& denoised) {
     std::string text = fmt::format("denoised by {} in {:.2f} s, mean energy {} %", denoised_by(denoised), denoised.seconds,

@@ -25,11 +25,11 @@ Result<void> try_denoiser(Denoiser& denoiser, DenoiseQuality quality);
 Result<std::vector<Denoised>> denoise_with_progress(Denoiser& denoiser, std::span<const DenoiseInput> inputs, DenoiseQuality quality,
                                                     bool quiet, const std::atomic<bool>& interrupted);
 
-// {network, precision, tiles, seconds, energy_change_percent, sanitised}
+// {network, precision, tiles, seconds, bias_corrected, energy_change_percent, sanitised}
 OrderedJson denoised_json(const Denoised& denoised);
-// "rt_hdr_alb_nrm, bfloat16": network and precision, for metadata.
+// "rt_hdr_alb_nrm, bfloat16, bias corrected": network and precision, for metadata.
 std::string denoised_by(const Denoised& denoised);
-// "denoised by rt_hdr_alb_nrm, bfloat16 in 0.31 s, mean energy +0.12 %, 3 pixels sanitised": for the terminal.
+// "denoised by rt_hdr_alb_nrm, bfloat16, bias corrected in 0.31 s, mean energy +0.12 %, 3 pixels sanitised": for the terminal.
 std::string denoised_summary(const Denoised& denoised);
 
 } // namespace blush

@@ -92,6 +92,12 @@ struct Frame {
     // Standard error of each pixel's mean, RGB, from the two halves. Empty unless requested, and until both hold samples.
     std::vector<Vec3> standard_error;
 
+    // Half of the difference A - B of the two half buffers, times the factor that makes its square an unbiased estimate of the variance of
+    // the pixel's mean, RGB, with its sign: means of it over pixels tell the variance of their mean, however their noise is correlated.
+    // NaN where a half holds no samples. Empty unless requested, if so everywhere, and for shadow catchers.
+    std::vector<Vec3> half_difference;
+    std::vector<std::vector<Vec3>> group_half_differences; // of each plane of `groups`
+
     // The latest error estimate of this image, with the samples per pixel and seconds at which it was made.
     ErrorEstimate error;
     int64_t error_samples = 0;

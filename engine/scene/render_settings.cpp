@@ -2,6 +2,9 @@
 
 #include "scene/reuse_setting.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace blush {
 
 RenderSettings recommended_settings() {
@@ -16,6 +19,14 @@ RenderSettings recommended_settings() {
 
 RenderSettings effective_settings(RenderSettings settings) {
     settings.adaptive = settings.adaptive && settings.region == ImageRegion{};
+    return settings;
+}
+
+RenderSettings at_film_size(RenderSettings settings) {
+    const auto scaled = [&](int n) { return std::max(1, int(std::lround(double(n) * double(settings.resolution_scale)))); };
+    settings.width = scaled(settings.width);
+    settings.height = scaled(settings.height);
+    settings.resolution_scale = 1;
     return settings;
 }
 

@@ -108,6 +108,8 @@ RenderSettings recommended_settings();
 // Effective settings: a region turns adaptive sampling off, so that its pixels equal those of the whole image without adaptive
 // sampling.
 RenderSettings effective_settings(RenderSettings settings);
+// The size times the resolution scale, which becomes 1.
+RenderSettings at_film_size(RenderSettings settings);
 
 // True if samples accumulated with `before` are valid for `after`: they differ in stop rules only.
 bool same_image(const RenderSettings& before, const RenderSettings& after);

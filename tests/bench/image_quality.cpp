@@ -100,7 +100,7 @@ Json mean_and_error(const std::vector<double>& values) {
 // All measures at 1, 2, 4, ... samples per pixel of one rendering.
 void render_series(const BenchScene& scene, const Variant& variant, uint32_t seed, const RgbImage& reference, Denoiser& denoiser,
                    const Options& options, std::map<int64_t, std::map<std::string, Figures>>& figures, std::vector<double>& seconds) {
-    Renderer renderer({.threads = options.threads, .planes = {.albedo = true, .normal = true}});
+    Renderer renderer({.threads = options.threads, .planes = {.albedo = true, .normal = true, .half_difference = true}});
     renderer.update(scene.scene, settings_of(variant, seed));
     double spent = 0;
     for (int64_t done = 0, count = 1; count <= options.max_samples; done = count, count *= 2) {
@@ -111,9 +111,10 @@ void render_series(const BenchScene& scene, const Variant& variant, uint32_t see
         auto& of_count = figures[count];
         of_count["raw"].add(image_of(frame.rgba, 4), reference);
         for (const auto& [name, quality] : qualities) {
-            const auto made = denoiser.denoise(denoise_inputs(frame).front(), {.quality = quality});
+            auto made = denoiser.denoise(denoise_inputs(frame).front(), {.quality = quality});
             if (!made) throw std::runtime_error(made.error().text());
-            of_count[name].add(image_of((*made)->rgb, 3), reference);
+            const auto denoised = denoised_image(frame, quality, {*std::move(*made)});
+            of_count[name].add(image_of(denoised->denoised.rgb, 3), reference);
         }
     }
     seconds.push_back(spent);

@@ -222,7 +222,7 @@ void print_summary(const RenderCommand& c, const Rendered& rendered) {
 
 PlaneSet planes_for(const RenderCommand& c, const Plan& plan) {
     PlaneSet planes = planes_of(plan.layers);
-    if (c.options.denoise) planes.albedo = planes.normal = true;
+    if (c.options.denoise) planes.albedo = planes.normal = planes.half_difference = true;
     if (c.options.view.false_color.of == FalseColor::Of::lux) planes.albedo = true;
     if (c.options.view.background_as_it_is) planes.ids = true;
     return planes;

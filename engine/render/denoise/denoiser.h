@@ -56,8 +56,9 @@ struct Denoised {
     int64_t sanitised = 0;  // pixels whose colour was NaN, infinite, negative or too large for the network
     double mean_before = 0; // mean luminance of the input (finite pixels) and of `rgb`: the denoiser's change of mean energy
     double mean_after = 0;
-    std::string network;   // "rt_hdr_alb_nrm_small"
-    std::string precision; // "float32" or "bfloat16"
+    bool bias_corrected = false; // by correct_bias() afterwards
+    std::string network;         // "rt_hdr_alb_nrm_small"
+    std::string precision;       // "float32" or "bfloat16"
     int tiles = 1;
     double seconds = 0;
     double seconds_of_preparation = 0; // of these: reading weights, building networks, allocating memory

@@ -9,11 +9,12 @@ Frame cropped(const Frame& frame, const PixelRect& rect) {
     const auto crop = [&](auto& plane) { plane = cropped(plane, frame.width, rect); };
     part.rgba = cropped(frame.rgba, frame.width, rect, 4);
     for (auto* plane : {&part.pixel_samples, &part.depth, &part.path_length, &part.survival}) crop(*plane);
-    for (auto* plane : {&part.albedo, &part.normal, &part.standard_error}) crop(*plane);
+    for (auto* plane : {&part.albedo, &part.normal, &part.standard_error, &part.half_difference}) crop(*plane);
     for (auto* plane : {&part.object_id, &part.material_id, &part.health.dropped_map}) crop(*plane);
     for (auto& plane : part.bounces) crop(plane);
     for (auto& plane : part.strategies) crop(plane);
     for (auto& plane : part.groups) crop(plane);
+    for (auto& plane : part.group_half_differences) crop(plane);
     part.error = {};
     part.group_shares.clear();
     return part;

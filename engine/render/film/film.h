@@ -188,9 +188,12 @@ private:
     struct Totals {
         Vec3d kept{0, 0, 0}, removed{0, 0, 0};
         int64_t clamped = 0;
+        bool has_both_halves = false; // any pixel
         std::vector<GroupShare> groups;
         void merge(const Totals& other);
     };
+    bool wants_half_difference() const { return planes_.half_difference && !catches_; }
+    Vec3 half_difference(size_t pixel) const; // Frame::half_difference
     void resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vector<GroupShare>& shares) const;
     void resolve_rows(Frame& frame, int first, int last, Totals& totals) const;
     // Bands have a fixed number of rows and are summed in order, so totals do not depend on threads.

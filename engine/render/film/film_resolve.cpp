@@ -4,8 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace blush {
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr Vec3 unknown{not_a_number, not_a_number, not_a_number}; // half difference where a half holds no samples
+
+Vec3 to_float(const Vec3d& v) { return {float(v.x), float(v.y), float(v.z)}; }
+
+} // namespace
 
 // Mean of a plane over all samples of a pixel, from one or two places.
 template <class Sum> auto Film::mean_of(size_t pixel, const Weights& w, const Sum& sum) const {
@@ -40,6 +49,7 @@ void Film::Totals::merge(const Totals& other) {
     kept = kept + other.kept;
     removed = removed + other.removed;
     clamped += other.clamped;
+    has_both_halves |= other.has_both_halves;
     for (size_t k = 0; k < groups.size(); ++k) {
         groups[k].mean = groups[k].mean + other.groups[k].mean;
         groups[k].variance = groups[k].variance + other.groups[k].variance;
@@ -76,9 +86,9 @@ void Film::resolve_groups(Frame& frame, size_t pixel, const Weights& w, std::vec
         const Vec3d mean = a * w.a + b * w.b;
         frame.groups[g][pixel] = {float(mean.x), float(mean.y), float(mean.z)};
         shares[g].mean = shares[g].mean + mean;
-        if (k == 0) continue;
         const Vec3d difference = (a * (1 / na) - b * (1 / nb)) * k;
-        shares[g].variance = shares[g].variance + difference * difference;
+        if (wants_half_difference()) frame.group_half_differences[g][pixel] = k > 0 ? to_float(difference) : unknown;
+        if (k > 0) shares[g].variance = shares[g].variance + difference * difference;
     }
 }
 
@@ -116,6 +126,8 @@ void Film::resolve_rows(Frame& frame, int first, int last, Totals& totals) const
             const Vec3d light = strategy_sum(i, 0, FoundBy(k)) * w.a + strategy_sum(i, 1, FoundBy(k)) * w.b;
             frame.strategies[k][i] = {float(light.x), float(light.y), float(light.z)};
         }
+        if (wants_half_difference()) frame.half_difference[i] = half_difference(i);
+        totals.has_both_halves |= a.count > 0 && b.count > 0;
         if (!frame.groups.empty()) resolve_groups(frame, i, w, totals.groups);
         if (planes_.roulette) {
             const Vec3d p = mean_of(i, w, [&](size_t place) { return paths_[place]; });
@@ -217,6 +229,9 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     for (std::vector<Vec3>& plane : frame.strategies) plane.resize(n);
     frame.groups.resize(size_t(needs_groups()));
     for (std::vector<Vec3>& plane : frame.groups) plane.resize(n);
+    frame.half_difference.resize(wants_half_difference() ? n : 0);
+    frame.group_half_differences.resize(wants_half_difference() ? frame.groups.size() : 0);
+    for (std::vector<Vec3>& plane : frame.group_half_differences) plane.resize(n);
     frame.gains = gains_;
     frame.path_length.resize(planes_.roulette ? n : 0);
     frame.survival.resize(planes_.roulette ? n : 0);
@@ -229,10 +244,22 @@ void Film::resolve(Frame& frame, const Workers& workers) const {
     for_each_band(workers, [&](size_t band, int first, int last) { resolve_rows(frame, first, last, totals[band]); });
     Totals total = none;
     for (const Totals& t : totals) total.merge(t);
+    if (!total.has_both_halves) {
+        frame.half_difference.clear();
+        frame.group_half_differences.clear();
+    }
     frame.group_shares = total.groups;
     for (GroupShare& share : frame.group_shares) share = {share.mean / double(n), share.variance / double(n)};
     const double before = luminance(total.kept) + luminance(total.removed);
     frame.clamp = {total.clamped, total.removed / double(n), before > 0 ? luminance(total.removed) / before : 0};
+}
+
+Vec3 Film::half_difference(size_t pixel) const {
+    const HalfBuffer &a = half_buffers_[0][pixel], &b = half_buffers_[1][pixel];
+    if (a.count == 0 || b.count == 0) return unknown;
+    const double na = double(a.count), nb = double(b.count);
+    const Weights w = weights(a, b);
+    return to_float((sum(pixel, 0) / na - sum(pixel, 1) / nb) * std::sqrt(na * w.a * nb * w.b));
 }
 
 std::vector<Vec3> Film::standard_error() const {
@@ -242,12 +269,8 @@ std::vector<Vec3> Film::standard_error() const {
     for (size_t i = 0; i < n; ++i) {
         const HalfBuffer &a = half_buffers_[0][i], &b = half_buffers_[1][i];
         if (a.count == 0 || b.count == 0) return {};
-        const double na = double(a.count), nb = double(b.count);
-        // |A - B| times the factor that makes its square an unbiased estimate of the variance of the weighted mean.
-        const Weights w = weights(a, b);
-        const double k = std::sqrt(na * w.a * nb * w.b);
-        const Vec3d difference = sum(i, 0) / na - sum(i, 1) / nb;
-        result.push_back({float(std::abs(difference.x) * k), float(std::abs(difference.y) * k), float(std::abs(difference.z) * k)});
+        const Vec3 half = half_difference(i);
+        result.push_back({std::abs(half.x), std::abs(half.y), std::abs(half.z)});
     }
     return result;
 }

@@ -11,9 +11,10 @@ struct PlaneSet {
     bool albedo = false, normal = false, depth = false, ids = false;
     // Radiance by the number of scatterings: 0, 1, ..., bounces - 1 and all further ones; 0: none, else 2 .. max_bounce_planes.
     int bounces = 0;
-    bool roulette = false;   // path length and survival probability of each pixel, paths by bounce
-    bool error = false;      // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
-    bool strategies = false; // radiance by the strategy that has found it (found_by.h)
+    bool roulette = false;        // path length and survival probability of each pixel, paths by bounce
+    bool error = false;           // standard error of each pixel's mean: computed from the two halves, needs no plane of its own
+    bool strategies = false;      // radiance by the strategy that has found it (found_by.h)
+    bool half_difference = false; // Frame::half_difference, also of light groups: like the error
     bool operator==(const PlaneSet&) const = default;
     // True if it includes all planes of `other`.
     bool covers(const PlaneSet& other) const {

@@ -1,6 +1,7 @@
 #include "render/session/denoised_image.h"
 
 #include "core/math.h"
+#include "render/denoise/bias_correction.h"
 #include "render/denoise/joint_upsampling.h"
 #include "render/light_mix/light_mix.h"
 
@@ -31,6 +32,18 @@ double mean_luminance(const std::vector<float>& pixels, size_t stride) {
     return sum / double(std::max<size_t>(1, pixels.size() / stride));
 }
 
+void correct_biases(const Frame& source, std::vector<Denoised>& denoised, const Workers* workers) {
+    if (source.half_difference.empty()) return;
+    const std::vector<DenoiseInput> inputs = denoise_inputs(source);
+    for (size_t k = 0; k < denoised.size(); ++k) {
+        const std::vector<Vec3>& halves = source.groups.empty() ? source.half_difference : source.group_half_differences[k];
+        Denoised& d = denoised[k];
+        correct_bias(d.rgb, inputs[k].color, halves, source.width, source.height, d.exposure_scale, workers);
+        d.mean_after = mean_luminance(d.rgb, 3);
+        d.bias_corrected = true;
+    }
+}
+
 } // namespace
 
 std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
@@ -43,6 +56,7 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
 
 std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised,
                                               const Workers* workers) {
+    correct_biases(source, denoised, workers);
     if (source.first_hits) {
         const FirstHitPlanes coarse{source.width, source.height, source.albedo, source.normal, source.depth, {}};
         for (Denoised& d : denoised) d.rgb = upsample_jointly(d.rgb, coarse, *source.first_hits, workers);
@@ -58,6 +72,7 @@ std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQualit
     all.network = denoised.front().network;
     all.precision = denoised.front().precision;
     all.exposure_scale = denoised.front().exposure_scale;
+    all.bias_corrected = denoised.front().bias_corrected;
     for (Denoised& group : denoised) {
         all.sanitised += group.sanitised;
         all.tiles = std::max(all.tiles, group.tiles);

@@ -55,7 +55,8 @@ using DenoisedPtr = std::shared_ptr<const DenoisedImage>;
 // for each light group before its gain. They point into the frame.
 std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
-// Combines the results for denoise_inputs(); groups are mixed with the frame's gains. Enlarged by the frame's first hits, if it has them.
+// Combines the results for denoise_inputs(), with their bias corrected if the frame has half differences (bias_correction.h); groups are
+// mixed with the frame's gains. Enlarged by the frame's first hits, if it has them.
 // Null workers: on this thread.
 std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised,
                                               const Workers* workers = nullptr);

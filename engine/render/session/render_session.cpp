@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -35,20 +34,6 @@ struct PendingSubmission {
     Clock::time_point when;
 };
 
-// Multiplies the size by the resolution scale.
-RenderSettings at_film_size(RenderSettings settings) {
-    const auto scaled = [&](int n) { return std::max(1, int(std::lround(double(n) * double(settings.resolution_scale)))); };
-    settings.width = scaled(settings.width);
-    settings.height = scaled(settings.height);
-    settings.resolution_scale = 1;
-    return settings;
-}
-
-PlaneSet with_first_hits(PlaneSet planes, const SessionOptions& o) {
-    if (o.first_hit_planes) planes.albedo = planes.normal = planes.depth = planes.ids = true;
-    return planes;
-}
-
 } // namespace
 
 struct RenderSession::State {
@@ -64,6 +49,7 @@ struct RenderSession::State {
     std::condition_variable wake;
     std::optional<PendingSubmission> pending;
     bool paused = false;
+    bool lacks_planes = false;          // the shown frame, because the denoiser was off
     std::optional<uint64_t> film_asked; // revision of the requested film
     std::optional<RequestedFilm> kept_film;
     PublishedFrames published_frames;
@@ -108,6 +94,7 @@ struct RenderSession::State {
     bool yields_to_ui() const { return gate.is_closed() && has_first_image && !(pending && pending->content->image != current->image); }
 
     SubmissionPtr submit(uint64_t revision, const SubmissionContent& content, Changes changes, FilmStatePtr film);
+    PlaneSet wanted_planes() const;
     void run();
     void announce(std::optional<SessionStatus::State> passing = {});
     void apply_submission(PendingSubmission next);
@@ -132,6 +119,13 @@ SessionStatus::State RenderSession::State::due_state() const {
     if (scheduler.finished()) return SessionStatus::State::complete;
     if (paused && has_first_image) return SessionStatus::State::paused;
     return yields_to_ui() ? SessionStatus::State::yielding : SessionStatus::State::rendering;
+}
+
+PlaneSet RenderSession::State::wanted_planes() const {
+    PlaneSet planes = current->planes;
+    if (options.first_hit_planes) planes.albedo = planes.normal = planes.depth = planes.ids = true;
+    planes.half_difference = denoiser->is_on();
+    return planes;
 }
 
 // Publishes the current state, or a transient one.
@@ -166,6 +160,7 @@ void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
 
 std::shared_ptr<Frame> RenderSession::State::resolved(bool wants_error) {
     std::shared_ptr<Frame> frame = frames.take();
+    renderer->set_planes(wanted_planes()); // the denoiser may have been switched
     renderer->resolve(*frame);
     frame->revision = current->revision;
     frame->look = current->look;
@@ -249,7 +244,7 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     if (!renderer)
         renderer.emplace(RendererOptions{
             .threads = options.threads, .low_priority = options.low_priority, .planes = {}, .begins_trained = options.begins_trained});
-    renderer->set_planes(with_first_hits(current->planes, options));
+    renderer->set_planes(wanted_planes());
     renderer->begin_image(current->base(), film_settings, current->groups);
     if (current->groups) renderer->set_mix(current->mixing);
     has_scene = true;
@@ -267,7 +262,7 @@ void RenderSession::State::apply_submission(PendingSubmission next) {
         begin_image(settings, next.film.get());
     } else {
         scheduler.change_stop_rules(settings);
-        renderer->set_planes(with_first_hits(current->planes, options));
+        renderer->set_planes(wanted_planes());
         if (current->groups) renderer->set_mix(current->mixing);
         if (scheduler.finished() && has_first_image) renderer->settle_first_sample();
         if (has_first_image) publish(); // the unchanged image answers the new revision
@@ -354,11 +349,12 @@ void RenderSession::State::run() {
     for (;;) {
         std::optional<PendingSubmission> taken;
         std::optional<uint64_t> asked;
-        bool work = false;
+        bool work = false, resolve_again = false;
         {
             std::unique_lock lock(mutex);
-            wake.wait(lock,
-                      [&] { return quit || film_asked || (pending && !yields_to_ui()) || has_work() || due_state() != status.state; });
+            wake.wait(lock, [&] {
+                return quit || film_asked || (pending && !yields_to_ui()) || has_work() || lacks_planes || due_state() != status.state;
+            });
             if (quit) return;
             // Before the requested image is replaced.
             asked = std::exchange(film_asked, std::nullopt);
@@ -367,6 +363,7 @@ void RenderSession::State::run() {
             // otherwise a drag faster than the updates would show nothing.
             if (!asked && !must_show() && !yields_to_ui()) taken.swap(pending);
             work = has_work();
+            resolve_again = std::exchange(lacks_planes, false) && has_first_image;
         }
         try {
             if (asked)
@@ -375,6 +372,8 @@ void RenderSession::State::run() {
                 apply_submission(std::move(*taken));
             else if (work)
                 render_batch();
+            else if (resolve_again)
+                publish();
             else
                 announce();
         } catch (const std::bad_alloc&) { fail("not enough memory", asked); } catch (const std::exception& e) {
@@ -476,10 +475,11 @@ void RenderSession::yield_to_ui(bool yielding) {
 
 void RenderSession::want_denoised(bool wanted) {
     state_->denoiser->want(wanted);
-    if (wanted) return;
     {
         const std::lock_guard lock(state_->mutex);
-        state_->published_frames.release();
+        const FramePtr& shown = state_->published_frames.images().frame;
+        state_->lacks_planes = wanted && shown && shown->samples > 1 && shown->half_difference.empty();
+        if (!wanted) state_->published_frames.release();
     }
     state_->wake.notify_one(); // rendering may have paused for a denoised image
 }

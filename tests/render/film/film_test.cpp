@@ -184,6 +184,24 @@ TEST(ErrorEstimate, IsZeroForAnImageWithoutNoise) {
     EXPECT_EQ(e.rmse_high, 0);
 }
 
+TEST(HalfDifference, HasTheStandardErrorAsItsSizeAndASign) {
+    Fixture f(16, 16, {.half_difference = true});
+    Noise noise(3);
+    f.add(0, 1, [&](int, int, int64_t) { return noisy(noise); });
+    EXPECT_TRUE(f.resolve().half_difference.empty()) << "one half is empty";
+    f.add(1, 6, [&](int, int, int64_t) { return noisy(noise); });
+    const std::vector<Vec3> halves = f.resolve().half_difference, errors = f.film.standard_error();
+    ASSERT_EQ(halves.size(), errors.size());
+    int64_t positive = 0;
+    for (size_t i = 0; i < halves.size(); ++i) {
+        ASSERT_EQ(std::abs(halves[i].x), errors[i].x);
+        ASSERT_EQ(std::abs(halves[i].z), errors[i].z);
+        positive += halves[i].x > 0;
+    }
+    // Either sign has a chance of 1/2: four standard deviations of 8.
+    EXPECT_NEAR(double(positive), 128, 4 * 8);
+}
+
 TEST(ErrorEstimate, StandardErrorIsThatOfTheMean) {
     for (const int samples : {2, 5, 16}) {
         Fixture f(16, 16);

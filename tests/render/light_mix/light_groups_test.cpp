@@ -5,6 +5,7 @@
 #include "tests/render/studio.h"
 #include "tests/support/images.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace blush::test::TEST_FILE {
@@ -58,6 +59,28 @@ TEST(LightGroups, DoNotChangeTheBeautyAndAreDeterministic) {
     EXPECT_TRUE(without.groups.empty());
     EXPECT_EQ(without.light_groups, nullptr);
     EXPECT_EQ(without.rgba, with.rgba);
+}
+
+TEST(LightGroups, HalfDifferencesSumToThatOfTheBeauty) {
+    const Studio studio;
+    for (const bool adaptive : {false, true}) {
+        RenderSettings settings = settings_for(32, 32, 20);
+        settings.adaptive = adaptive;
+        Renderer renderer({.threads = 2, .planes = {.half_difference = true}});
+        renderer.update(studio.scene, settings);
+        renderer.render(0, 20);
+        const Frame frame = renderer.resolve();
+        ASSERT_EQ(frame.group_half_differences.size(), frame.groups.size());
+        double largest = 0;
+        for (size_t i = 0; i < frame.half_difference.size(); ++i) {
+            double sum = 0;
+            for (size_t k = 0; k < frame.groups.size(); ++k) sum += double(frame.gains[k].y) * double(frame.group_half_differences[k][i].y);
+            const double size = std::abs(double(frame.rgba[4 * i + 1])) + std::abs(sum);
+            ASSERT_NEAR(sum, double(frame.half_difference[i].y), 0x1p-18 * (1 + size)) << i;
+            largest = std::max(largest, std::abs(sum));
+        }
+        EXPECT_GT(largest, 0);
+    }
 }
 
 // The scene with only the lights of one group.

@@ -156,8 +156,11 @@ TEST(DenoisedSession, EnabledWhenCompleteItAddsAnImageAndResetsNothing) {
     submit(session, 1, small_project());
     const Event before = session.wait_for(1, State::complete);
     session->want_denoised(true);
-    const Event after = session.wait_for(ends(1));
-    EXPECT_EQ(after.frame, before.frame) << "the same frame object";
+    // Both runs may end before the frame is resolved again with half differences, by which the bias is then corrected.
+    const Event after = session.wait_for([](const Event& e) { return ends(1)(e) && e.denoised->denoised.bias_corrected; });
+    EXPECT_TRUE(before.frame->half_difference.empty()) << "nothing that only the denoiser needs";
+    EXPECT_EQ(after.frame->half_difference.size(), after.frame->rgba.size() / 4) << "resolved again for it";
+    EXPECT_EQ(after.frame->rgba, before.frame->rgba);
     EXPECT_EQ(after.status.state, State::complete);
     const size_t calls = networks.calls().size();
     EXPECT_EQ(calls, 2u) << "the fast quality first, then the best";
@@ -172,7 +175,8 @@ TEST(DenoisedSession, EnabledWhenCompleteItAddsAnImageAndResetsNothing) {
     EXPECT_EQ(session.events().back().denoised->revision, 2u);
     for (const Event& e : session.events())
         if (e.denoised && e.denoised->revision == 1) {
-            EXPECT_TRUE(e.denoised == after.denoised || e.denoised->quality == DenoiseQuality::fast);
+            EXPECT_TRUE(e.denoised == after.denoised || e.denoised->quality == DenoiseQuality::fast ||
+                        !e.denoised->denoised.bias_corrected);
         }
 }
 
