@@ -14,8 +14,18 @@ namespace {
 // A third of a stop: an edit that changes the exposure scale by less
 // keeps it, so that brightness does not flicker while dragging.
 constexpr float scale_tolerance = 1.26f;
+constexpr double correction_growth = 1.5; // of the samples: then the bias is corrected again
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// Its result, or why it threw.
+template <class Make> auto attempt(const Make& make) -> decltype(make()) {
+    try {
+        return make();
+    } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
+        return {nullptr, e.what()};
+    }
+}
 
 DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
     // Each light group is denoised separately.
@@ -125,8 +135,18 @@ Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, 
     return all;
 }
 
+BackgroundDenoiser::Outcome BackgroundDenoiser::finish(const Task& task, DenoiseQuality quality, std::vector<Denoised> planes) {
+    const double begun = now();
+    std::shared_ptr<DenoisedImage> denoised = denoised_image(*task.frame, quality, std::move(planes), &*workers_);
+    output_.samples = task.frame->samples;
+    output_.is_corrected = denoised->denoised.bias_corrected;
+    const double made = now();
+    history_.follow(task.frame, *denoised, &*workers_);
+    return {std::move(denoised), {}, now() - begun, now() - made};
+}
+
 BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
-    try {
+    return attempt([&]() -> Outcome {
         if (!denoise_) denoise_ = maker_();
         if (!workers_) workers_.emplace(threads_, low_priority_);
         Result<std::vector<Denoised>> all = denoise_all(task, quality);
@@ -135,15 +155,33 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
         scales_.clear();
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
+        output_ = task.frame->divider == 1 ? NetworkOutput{task.image, quality, *all} : NetworkOutput();
         const double preparing = all->front().seconds_of_preparation;
-        const double begun = now();
-        std::shared_ptr<DenoisedImage> denoised = denoised_image(*task.frame, quality, *std::move(all), &*workers_);
-        const double enlarged = now();
-        history_.follow(task.frame, *denoised, &*workers_);
-        return {std::move(denoised), {}, preparing + now() - begun, now() - enlarged};
-    } catch (const std::bad_alloc&) { return {nullptr, "not enough memory to denoise"}; } catch (const std::exception& e) {
-        return {nullptr, e.what()};
-    }
+        Outcome outcome = finish(task, quality, *std::move(all));
+        outcome.seconds_not_denoising += preparing;
+        return outcome;
+    });
+}
+
+bool BackgroundDenoiser::may_correct_again() const {
+    if (!wanted_ || !failure_.empty() || !newest_.frame || newest_.image != output_.image) return false;
+    const Frame& frame = *newest_.frame;
+    if (frame.divider > 1 || frame.half_difference.empty() || std::max<size_t>(1, frame.groups.size()) != output_.planes.size())
+        return false;
+    return !output_.is_corrected || double(frame.samples) >= correction_growth * double(output_.samples);
+}
+
+void BackgroundDenoiser::correct_again(std::unique_lock<std::mutex>& lock) {
+    const Task task = newest_;
+    lock.unlock();
+    Outcome outcome;
+    if (is_wanted_by_now(task)) outcome = attempt([&] { return finish(task, output_.quality, output_.planes); });
+    lock.lock();
+    failure_ = std::move(outcome.failure);
+    history_look_ = history_.look();
+    lock.unlock();
+    on_answer_(task.image, task.frame, std::move(outcome.denoised));
+    lock.lock();
 }
 
 // Infinite while denoised images are wanted, or if there is nothing to free.
@@ -156,6 +194,7 @@ void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     denoise_ = {};
     history_.forget();
+    output_ = {};
     on_release_();
     lock.lock();
 }
@@ -175,6 +214,11 @@ void BackgroundDenoiser::run() {
             continue;
         }
         const DenoiseCadence::Decision decision = due();
+        // A run of the large network does not pause rendering, and takes long.
+        if (!decision.pauses_rendering && may_correct_again()) {
+            correct_again(lock);
+            continue;
+        }
         if (!decision.quality) {
             const double wait = std::min(decision.wait, seconds_to_release());
             if (std::isinf(wait))

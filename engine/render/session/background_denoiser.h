@@ -68,11 +68,23 @@ private:
     struct Outcome {
         DenoisedPtr denoised;
         std::string failure;
-        double seconds_not_denoising = 0; // of preparation of the network, of enlarging, and of history
+        double seconds_not_denoising = 0; // of preparation of the network, bias correction, enlarging, and history
         double seconds_of_history = 0;
     };
 
+    // Images of the network, before their bias is corrected.
+    struct NetworkOutput {
+        uint64_t image = 0; // 0: none
+        DenoiseQuality quality = DenoiseQuality::fast;
+        std::vector<Denoised> planes; // of the whole image, or of each light group
+        // Of the frame that has corrected it.
+        int64_t samples = 0;
+        bool is_corrected = false;
+    };
+
     void run();
+    void correct_again(std::unique_lock<std::mutex>& lock);
+    Outcome finish(const Task& task, DenoiseQuality quality, std::vector<Denoised> planes);
     DenoiseOptions options_for(const Task& task, DenoiseQuality quality, size_t group) const;
     Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
     Outcome denoise(const Task& task, DenoiseQuality quality);
@@ -81,6 +93,7 @@ private:
 
     // These require the mutex.
     DenoiseCadence::Decision due() const;
+    bool may_correct_again() const;
     void update_pause();
     void release(std::unique_lock<std::mutex>& lock);
     double seconds_to_release() const;
@@ -112,6 +125,7 @@ private:
     DenoiseFunction denoise_;
     std::optional<Workers> workers_; // empty until the first image is denoised
     ViewHistoryKeeper history_;
+    NetworkOutput output_; // of the last frame of full size: frames with more samples correct it, much faster than the network
     std::vector<float> scales_;
     uint64_t scale_image_ = 0;
     std::thread thread_;

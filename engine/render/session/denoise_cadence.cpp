@@ -59,12 +59,13 @@ DenoiseCadence::Decision DenoiseCadence::next(double now) const {
         if (is_done(DenoiseQuality::high)) return {};
         return now_with(DenoiseQuality::high);
     }
-    const double rests_at = image_begun_ + idle_seconds;
+    const auto affordable_at = [&](DenoiseQuality quality, double share) { return image_begun_ + (spent_ + predicted(quality)) / share; };
+    const double rests_at = std::max(image_begun_ + idle_seconds, affordable_at(DenoiseQuality::base, idle_share));
     const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
     if (is_done(quality)) return wait_for(quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now);
-    const auto affordable_at = [&](double share) { return image_begun_ + (spent_ + predicted(quality)) / share; };
     const bool renews = newest_->samples >= renewal_growth * done_->samples;
-    const double due_at = renews ? affordable_at(renewal_share) : std::max(done_->begun + min_interval, affordable_at(time_share));
+    const double due_at =
+        renews ? affordable_at(quality, renewal_share) : std::max(done_->begun + min_interval, affordable_at(quality, time_share));
     if (now >= due_at) return now_with(quality);
     return wait_for(due_at - now);
 }

@@ -10,21 +10,23 @@
 
 namespace blush {
 
-// An image's first full-resolution frame is denoised at once, and again when its samples have quadrupled, for at most half of the
-// image's render time: noise has halved then, and soon raw frames would be better than the last denoised one. Other frames are denoised
-// at most once per second, all together for at most a tenth of the render time. After a while without edits the large network is used, and
-// the final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Rendering pauses
-// for short runs of the small network: on few cores both at once would delay the denoised image by more than the samples are worth.
+// An image's first full-resolution frame is denoised at once, and again when its samples have doubled, for at most half of the image's
+// render time: the second sample shows the bias of the network (bias_correction.h), and soon raw frames would be better than the last
+// denoised one. Other frames are denoised at most once per second, all together for at most a tenth of the render time. After a while
+// without edits the large network is used, once a quarter of the render time suffices for it: twice the samples are worth more. The final
+// frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Rendering pauses for short
+// runs of the small network: on few cores both at once would delay the denoised image by more than the samples are worth.
 // Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
     static constexpr double min_interval = 1;         // seconds from the start of one run to the start of the next
     static constexpr double time_share = 0.1;         // of the image's render time
-    static constexpr int64_t renewal_growth = 4;      // of the samples
+    static constexpr int64_t renewal_growth = 2;      // of the samples
     static constexpr double renewal_share = 0.5;      // of the image's render time
     static constexpr double max_pause = 1;            // of rendering, for one run
     static constexpr double assumed_speed = 0.25;     // seconds per megapixel of the small network before its first run
     static constexpr double idle_seconds = 2;         // without an edit
+    static constexpr double idle_share = 0.25;        // of the image's render time, for all runs with one of the large network
     static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
 
     // The properties of a frame that matter here.

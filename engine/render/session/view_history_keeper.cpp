@@ -20,7 +20,7 @@ void ViewHistoryKeeper::follow(const FramePtr& frame, DenoisedImage& denoised, c
     look_ = frame->look;
     const FirstHitPlanesPtr seen = seen_by(frame);
     if (seen->depth.empty() || seen->albedo.empty() || seen->normal.empty()) return;
-    const bool is_coarse = frame->divider > 1, begins = !frame->complete && frame->samples < DenoiseCadence::renewal_growth;
+    const bool is_coarse = frame->divider > 1, begins = !frame->complete && frame->samples < most_samples;
     if ((is_coarse || begins) && !history_.empty() && frame->camera != history_.camera)
         denoised.with_history = with_history(denoised.denoised.rgb, is_coarse, *seen, history_, workers);
     if (is_coarse) return;

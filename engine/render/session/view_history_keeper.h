@@ -15,12 +15,13 @@ class ViewHistoryKeeper {
 public:
     // 3840 x 2160: 400 MB.
     static constexpr size_t default_most_pixels = size_t(1) << 23;
+    static constexpr int64_t most_samples = 4;
     // `most_pixels`: larger images are not kept, so that memory is bounded.
     explicit ViewHistoryKeeper(size_t most_pixels = default_most_pixels) : most_pixels_(most_pixels) {}
 
-    // Mixes history into the denoised image of `frame`, if it has the same look (Submission::look) and another view, and is coarse or the
-    // first one of full size, before its samples have quadrupled (DenoiseCadence) or it is complete. Keeps one of full size, as it was
-    // denoised. Not with light groups, an aperture, a transparent image, or a region.
+    // Mixes history into the denoised image of `frame`, if it has the same look (Submission::look) and another view, and is coarse, or
+    // incomplete and of full size with fewer than `most_samples`. Keeps one of full size, as it was denoised. Not with light groups, an
+    // aperture, a transparent image, or a region.
     void follow(const FramePtr& frame, DenoisedImage& denoised, const Workers* workers);
     // Of the image that is kept; 0: none.
     uint64_t look() const { return history_.empty() ? 0 : look_; }

@@ -87,13 +87,14 @@ TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
     }
 }
 
-TEST(DenoiseCadence, IsRenewedWhenTheSamplesHaveQuadrupled) {
+TEST(DenoiseCadence, IsRenewedWhenTheSamplesHaveDoubled) {
     Bench bench;
     bench.render(1, 20);
-    ASSERT_GE(bench.done.size(), 3u);
+    ASSERT_GE(bench.done.size(), 4u);
     EXPECT_EQ(bench.done[0].samples, 1);
-    EXPECT_EQ(bench.done[1].samples, 4);
-    EXPECT_EQ(bench.done[2].samples, 16);
+    EXPECT_EQ(bench.done[1].samples, 4) << "two runs of 0.1 s are half of the time then";
+    EXPECT_EQ(bench.done[2].samples, 8);
+    EXPECT_EQ(bench.done[3].samples, 16);
 }
 
 TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
@@ -119,8 +120,14 @@ TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
     Bench bench;
     const double begin = bench.now;
     bench.render(1, 300);
-    for (size_t i = 0; i + 1 < bench.done.size(); ++i)
-        EXPECT_EQ(bench.done[i].quality, bench.done[i].at < begin + DenoiseCadence::idle_seconds ? fast : base) << i;
+    double spent = 0;
+    for (size_t i = 0; i + 1 < bench.done.size(); ++i) {
+        const double elapsed = bench.done[i].at - begin;
+        const bool suffices = spent + bench.seconds[size_t(base)] <= DenoiseCadence::idle_share * elapsed;
+        EXPECT_EQ(bench.done[i].quality, elapsed >= DenoiseCadence::idle_seconds && suffices ? base : fast) << i;
+        spent += bench.seconds[size_t(bench.done[i].quality)];
+    }
+    EXPECT_EQ(bench.done[bench.done.size() - 2].quality, base);
     EXPECT_EQ(bench.done.back().quality, high);
     EXPECT_EQ(bench.done.back().samples, 300);
     EXPECT_TRUE(std::isinf(bench.cadence.next(bench.now).wait)) << "then it sleeps";

@@ -1,0 +1,87 @@
+#include "render/session/background_denoiser.h"
+
+#include "tests/support/eventually.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace blush::TEST_FILE {
+namespace {
+
+// Of light 1 everywhere, without noise.
+FramePtr frame_of(int64_t samples) {
+    auto frame = std::make_shared<Frame>();
+    frame->width = 32;
+    frame->height = 24;
+    frame->samples = samples;
+    const size_t pixels = size_t(frame->width) * size_t(frame->height);
+    frame->rgba.assign(4 * pixels, 1);
+    if (samples > 1) frame->half_difference.assign(pixels, Vec3{0, 0, 0});
+    return frame;
+}
+
+// The network halves its input and takes a second, so it does not run again within three more: it may use half of the time.
+struct Bench {
+    DenoiserMaker maker() {
+        return [this]() -> DenoiseFunction {
+            return [this](const DenoiseInput& input, const DenoiseOptions&, const std::function<bool()>&) {
+                ++runs;
+                std::this_thread::sleep_for(std::chrono::seconds(1));
+                Denoised denoised;
+                denoised.rgb.assign(3 * size_t(input.width) * size_t(input.height), 0.5f);
+                return Result<std::optional<Denoised>>(std::optional(std::move(denoised)));
+            };
+        };
+    }
+    size_t answers() const {
+        const std::lock_guard lock(mutex);
+        return answered.size();
+    }
+    DenoisedPtr last() const {
+        const std::lock_guard lock(mutex);
+        return answered.back();
+    }
+
+    std::atomic<int> runs{0};
+    mutable std::mutex mutex;
+    std::vector<DenoisedPtr> answered;
+    PauseGate gate;
+    BackgroundDenoiser denoiser{maker(),
+                                1,
+                                false,
+                                60,
+                                gate,
+                                [this](uint64_t, const FramePtr&, DenoisedPtr denoised) {
+                                    const std::lock_guard lock(mutex);
+                                    answered.push_back(std::move(denoised));
+                                },
+                                [] {}};
+};
+
+TEST(BackgroundDenoiser, FramesWithMoreSamplesCorrectTheImageOfTheNetworkWithoutIt) {
+    Bench bench;
+    bench.denoiser.want(true);
+    bench.denoiser.offer(1, frame_of(1));
+    ASSERT_TRUE(test::eventually([&] { return bench.answers() == 1; }));
+    ASSERT_TRUE(bench.last());
+    EXPECT_FALSE(bench.last()->denoised.bias_corrected) << "one sample has no halves";
+    EXPECT_EQ(bench.last()->denoised.rgb.front(), 0.5f);
+
+    for (const int64_t samples : {2, 3}) {
+        bench.denoiser.offer(1, frame_of(samples));
+        ASSERT_TRUE(test::eventually([&] { return bench.answers() == size_t(samples); }));
+        EXPECT_EQ(bench.runs, 1) << samples;
+        EXPECT_TRUE(bench.last()->denoised.bias_corrected);
+        EXPECT_EQ(bench.last()->samples, samples);
+        for (const float v : bench.last()->denoised.rgb) ASSERT_NEAR(v, 1, 1e-5f);
+    }
+}
+
+} // namespace
+} // namespace blush::TEST_FILE
