@@ -19,6 +19,7 @@ constexpr int band_rows = 16;         // for one task
 constexpr float key = 0.18f;          // of the exposure scale: 0.18 over the mean
 constexpr float most_relative = 1e6f; // so that fourth powers stay within float
 constexpr float no_energy = 1e-30f;   // against 0 / 0
+constexpr float few_pixels = 4;       // standard errors more for a window that a single pixel rules
 
 // One channel of one level of the pyramid.
 struct Level {
@@ -59,7 +60,7 @@ Level coarser(const Level& from, const Workers* workers) {
     return to;
 }
 
-// Bilinear interpolation of the coarser level's correction.
+// Bilinear interpolation of the coarser level's correction, and the difference from it.
 void predict(Level& level, const Level& from, const Workers* workers) {
     for_bands(level.height, workers, [&](int first, int last) {
         std::vector<float> row(size_t(from.width) + 2); // with its ends repeated
@@ -71,18 +72,23 @@ void predict(Level& level, const Level& from, const Workers* workers) {
             row.front() = row[1];
             row.back() = row[size_t(from.width)];
             float* to = &level.correction[level.row(y)];
-            for (size_t x = 0; x < size_t(level.width); ++x) to[x] = 0.75f * row[x / 2 + 1] + 0.25f * row[x % 2 ? x / 2 + 2 : x / 2];
+            float* difference = &level.difference[level.row(y)];
+            for (size_t x = 0; x < size_t(level.width); ++x) {
+                to[x] = 0.75f * row[x / 2 + 1] + 0.25f * row[x % 2 ? x / 2 + 2 : x / 2];
+                difference[x] -= to[x];
+            }
         }
     });
 }
 
 // Sums of a window's columns, with zeros beside them, for a loop over pixels without branches.
 struct ColumnSums {
-    explicit ColumnSums(int width) : squares(size_t(width + 2 * radius)), biases(squares.size()), errors(squares.size()) {}
+    explicit ColumnSums(int width)
+        : squares(size_t(width + 2 * radius)), biases(squares.size()), errors(squares.size()), fourths(squares.size()) {}
 
     void sum(const Level& level, int first, int last) {
-        for (std::vector<float>* sums : {&squares, &biases, &errors}) std::fill(sums->begin(), sums->end(), 0.f);
-        float *s = &squares[radius], *b = &biases[radius], *e = &errors[radius];
+        for (std::vector<float>* sums : {&squares, &biases, &errors, &fourths}) std::fill(sums->begin(), sums->end(), 0.f);
+        float *s = &squares[radius], *b = &biases[radius], *e = &errors[radius], *f = &fourths[radius];
         for (int y = first; y <= last; ++y) {
             const float *d = &level.difference[level.row(y)], *h = &level.half[level.row(y)];
 #pragma omp simd
@@ -91,11 +97,12 @@ struct ColumnSums {
                 s[x] += square;
                 b[x] += square - variance;
                 e[x] += 4 * square * variance;
+                f[x] += square * square;
             }
         }
     }
 
-    std::vector<float> squares, biases, errors; // d^2; d^2 - h^2; 4 d^2 h^2
+    std::vector<float> squares, biases, errors, fourths; // d^2; d^2 - h^2; 4 d^2 h^2; d^4
 };
 
 // Adds the shrunk difference to the prediction. The window's number of pixels cancels: sums stand for means.
@@ -104,19 +111,20 @@ void shrink(Level& level, const Workers* workers) {
         ColumnSums columns(level.width);
         for (int y = first; y < last; ++y) {
             columns.sum(level, std::max(0, y - radius), std::min(level.height - 1, y + radius));
-            const float *s = columns.squares.data(), *b = columns.biases.data(), *e = columns.errors.data();
+            const float *s = columns.squares.data(), *b = columns.biases.data(), *e = columns.errors.data(), *f = columns.fourths.data();
             const float* d = &level.difference[level.row(y)];
             float* to = &level.correction[level.row(y)];
 #pragma omp simd
             for (size_t x = 0; x < size_t(level.width); ++x) {
-                float squares = 0, biases = 0, errors = 0;
+                float squares = no_energy, biases = 0, errors = 0, fourths = 0;
                 for (size_t i = 0; i <= 2 * radius; ++i) {
                     squares += s[x + i];
                     biases += b[x + i];
                     errors += e[x + i];
+                    fourths += f[x + i];
                 }
-                const float known = biases - std::sqrt(errors);
-                to[x] += (known > 0 ? known : 0.f) / (squares + no_energy) * d[x];
+                const float known = biases - (1 + few_pixels * fourths / squares / squares) * std::sqrt(errors);
+                to[x] += (known > 0 ? known : 0.f) / squares * d[x];
             }
         }
     });
@@ -143,14 +151,15 @@ public:
             if (l + 1 < levels.size()) {
                 predict(level, levels[l + 1], workers_);
                 levels.pop_back();
-                for (size_t i = 0; i < level.difference.size(); ++i) level.difference[i] -= level.correction[i];
             }
             shrink(level, workers_);
         }
         const std::vector<float>& correction = levels.front().correction;
-        for (size_t i = 0; i < correction.size(); ++i)
-            denoised_[3 * i + channel] =
-                std::clamp(denoised_[3 * i + channel] + correction[i] * scale_[i], 0.f, std::numeric_limits<float>::max());
+        for_bands(height_, workers_, [&](int first, int last) {
+            for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i)
+                denoised_[3 * i + channel] =
+                    std::clamp(denoised_[3 * i + channel] + correction[i] * scale_[i], 0.f, std::numeric_limits<float>::max());
+        });
     }
 
 private:

@@ -98,6 +98,23 @@ TEST(BiasCorrection, FirefliesStayAway) {
     for (const float v : image.corrected()) ASSERT_NEAR(v, 1, 0.02f);
 }
 
+// So is one in both halves, if it is not nearly the same: a single pixel says little.
+TEST(BiasCorrection, BrightSamplesInBothHalvesOfAPixelStayAway) {
+    Image image(64, 64);
+    image.add_noise(normal(0.01f, 7));
+    const auto brighten = [&](size_t pixel, float a, float b) {
+        for (size_t c = 0; c < 3; ++c) image.rendered[3 * pixel + c] += (a + b) / 2;
+        image.halves[pixel] = {(a - b) / 2, (a - b) / 2, (a - b) / 2};
+    };
+    brighten(700, 50, 30);
+    brighten(2000, 20, 25);
+    for (const float v : image.corrected()) ASSERT_NEAR(v, 1, 0.02f);
+    // A highlight of many pixels is there.
+    for (const size_t y : {40, 41, 42, 43, 44})
+        for (const size_t x : {40, 41, 42, 43, 44}) brighten(64 * y + x, 20 + float(x % 3), 20 + float(y % 3));
+    EXPECT_GT(image.corrected()[3 * (64 * 42 + 42)], 15);
+}
+
 // Noise that is alike in blocks of pixels, as path reuse may leave it, is no bias to the levels that average it: their half differences
 // keep their sign.
 TEST(BiasCorrection, CorrelatedNoiseIsNotTakenForBiasByCoarserLevels) {
