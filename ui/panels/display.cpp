@@ -16,9 +16,9 @@ namespace {
 void draw_denoised_figures(Fields& f, const DenoisedImage& image) {
     const Denoised& d = image.denoised;
     f.info("Network", fmt::format("{}, {}", d.network, d.precision), "The network that denoised the image, and its numeric precision.");
-    f.info("Bias", d.bias_corrected ? "corrected" : "not corrected: one sample",
+    f.info("Bias", d.bias_corrected ? "corrected" : "not corrected",
            "The network shifts colours, dims lamps and blurs small highlights. From two samples on, what noise cannot explain of that is "
-           "taken back. Where there is no noise, the denoised image is the raw one.");
+           "taken back. Where there is no noise, the denoised image is the raw one. Images with a shadow catcher are not corrected.");
     f.info("Denoise time", fmt::format("{:.0f} ms", 1000 * d.seconds),
            "Denoising runs in parallel with rendering and takes at most a tenth of the time, except while the samples are few, and for the "
            "last image.");

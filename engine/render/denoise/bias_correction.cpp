@@ -45,8 +45,7 @@ float mean_of_four(const std::vector<float>& from, size_t above, size_t below, s
     return 0.25f * (from[above + left] + from[above + right] + from[below + left] + from[below + right]);
 }
 
-Level coarser(const Level& from, const Workers* workers) {
-    Level to((from.width + 1) / 2, (from.height + 1) / 2);
+void make_coarser(const Level& from, Level& to, const Workers* workers) {
     for_bands(to.height, workers, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
             const size_t above = from.row(2 * y), below = from.row(std::min(2 * y + 1, from.height - 1));
@@ -57,7 +56,6 @@ Level coarser(const Level& from, const Workers* workers) {
             }
         }
     });
-    return to;
 }
 
 // Bilinear interpolation of the coarser level's correction, and the difference from it.
@@ -136,6 +134,9 @@ public:
                    float exposure_scale, const Workers* workers)
         : denoised_(denoised), rendered_(rendered), half_difference_(half_difference), width_(width), height_(height), workers_(workers),
           scale_(half_difference.size()) {
+        levels_.emplace_back(width, height);
+        while (std::min(levels_.back().width, levels_.back().height) > coarsest_side)
+            levels_.emplace_back((levels_.back().width + 1) / 2, (levels_.back().height + 1) / 2);
         const float added = key / exposure_scale;
         for_bands(height, workers, [&](int first, int last) {
             for (size_t i = size_t(first) * size_t(width); i < size_t(last) * size_t(width); ++i)
@@ -144,17 +145,14 @@ public:
     }
 
     void run(size_t channel) {
-        std::vector<Level> levels{finest(channel)};
-        while (std::min(levels.back().width, levels.back().height) > coarsest_side) levels.push_back(coarser(levels.back(), workers_));
-        for (size_t l = levels.size(); l-- > 0;) {
-            Level& level = levels[l];
-            if (l + 1 < levels.size()) {
-                predict(level, levels[l + 1], workers_);
-                levels.pop_back();
-            }
-            shrink(level, workers_);
+        fill_finest(channel);
+        for (size_t l = 0; l + 1 < levels_.size(); ++l) make_coarser(levels_[l], levels_[l + 1], workers_);
+        std::ranges::fill(levels_.back().correction, 0.f);
+        for (size_t l = levels_.size(); l-- > 0;) {
+            if (l + 1 < levels_.size()) predict(levels_[l], levels_[l + 1], workers_);
+            shrink(levels_[l], workers_);
         }
-        const std::vector<float>& correction = levels.front().correction;
+        const std::vector<float>& correction = levels_.front().correction;
         for_bands(height_, workers_, [&](int first, int last) {
             for (size_t i = size_t(first) * size_t(width_); i < size_t(last) * size_t(width_); ++i)
                 denoised_[3 * i + channel] =
@@ -163,20 +161,19 @@ public:
     }
 
 private:
-    Level finest(size_t channel) const {
-        Level level(width_, height_);
+    void fill_finest(size_t channel) {
+        Level& level = levels_.front();
         for_bands(height_, workers_, [&](int first, int last) {
             for (size_t i = level.row(first); i < level.row(last); ++i) {
                 const Vec3& half = half_difference_[i];
                 const float inverse = 1 / scale_[i], rendered = rendered_.values[size_t(rendered_.stride) * i + channel];
                 const float difference = (rendered - denoised_[3 * i + channel]) * inverse;
                 const float halves = (channel == 0 ? half.x : channel == 1 ? half.y : half.z) * inverse;
-                if (!std::isfinite(rendered) || !std::isfinite(halves)) continue;
-                level.difference[i] = std::clamp(difference, -most_relative, most_relative);
-                level.half[i] = std::clamp(halves, -most_relative, most_relative);
+                const bool known = std::isfinite(rendered) && std::isfinite(halves);
+                level.difference[i] = known ? std::clamp(difference, -most_relative, most_relative) : 0.f;
+                level.half[i] = known ? std::clamp(halves, -most_relative, most_relative) : 0.f;
             }
         });
-        return level;
     }
 
     std::span<float> denoised_;
@@ -184,7 +181,8 @@ private:
     std::span<const Vec3> half_difference_;
     int width_, height_;
     const Workers* workers_;
-    std::vector<float> scale_; // by which differences are divided
+    std::vector<float> scale_;  // by which differences are divided
+    std::vector<Level> levels_; // finest first; the memory of all channels, one after the other
 };
 
 } // namespace

@@ -15,7 +15,7 @@ class ViewHistoryKeeper {
 public:
     // 3840 x 2160: 400 MB.
     static constexpr size_t default_most_pixels = size_t(1) << 23;
-    static constexpr int64_t most_samples = 4;
+    static constexpr int64_t most_samples = 4; // of full size: from these on no history is mixed in
     // `most_pixels`: larger images are not kept, so that memory is bounded.
     explicit ViewHistoryKeeper(size_t most_pixels = default_most_pixels) : most_pixels_(most_pixels) {}
 
