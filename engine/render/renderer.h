@@ -87,6 +87,8 @@ public:
     // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});
     void clear();
+    // True if first samples and coarse images begin with the seeds of manifold sampling of before an edit.
+    bool begins_with_seeds() const;
     // Runs the pilots that samples of an index below `samples` need and that have not run: of learned visibility, learned portals, path
     // guiding, light paths, manifold sampling, path reuse and Russian roulette (learned_sampling.h), and smooth edges (edge_choice.h).
     // Otherwise render() does so before the first sample at full resolution that needs them. False if stopped.

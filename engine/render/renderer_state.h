@@ -206,6 +206,10 @@ struct Renderer::State {
     void collect_counts(const TickRate& rate);
     bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }
 
+    // True if the pilots have run before the first sample, and it would be rendered again with the second.
+    bool begins_decided(int64_t first) const {
+        return first == 0 && samples == 0 && !learned.needs_pilot(2) && !edges.needs_pilot() && learned.renews_first();
+    }
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {
         return divider == 1 && !first_as_others && (learned.pays() || edges.pixels(1) || reuse_group_size(0) != reuse_group_size(1));

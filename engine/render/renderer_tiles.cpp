@@ -178,6 +178,8 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     return s.render_first_again(wanted);
 }
 
+bool Renderer::begins_with_seeds() const { return state_->learned.kept_seeds() != nullptr; }
+
 // Each pilot measures the samples as those before it have decided.
 bool Renderer::State::decide(int64_t samples, const Wanted& wanted) {
     if (!learned.needs_pilot(samples) && !edges.needs_pilot() && !needs_highlights()) return true;
@@ -219,7 +221,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
     s.clear_stale_film();
     if (!s.prepare_replacement(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
-    if (s.divider == 1 && (begin + count > 1 || s.options.is_part)) {
+    if (s.divider == 1 && (begin + count > 1 || s.options.is_part || s.begins_decided(begin))) {
         if (!s.decide(2, wanted)) return false;
         if (s.samples == 0) s.begin_splats();
         if (s.learned.renews_first()) {

@@ -79,7 +79,8 @@ bool BackgroundDenoiser::offer(uint64_t image, FramePtr frame) {
         cadence_.offer(source_of(image, *frame), now());
         promised = wanted_ && maker_ && failure_.empty() && cadence_.answers_within_a_frame();
         newest_ = {image, std::move(frame), promised};
-        newest_image_ = image;
+        // A later frame of an image that is being replaced changes nothing.
+        newest_image_ = promised ? image : std::max<uint64_t>(newest_image_, image);
         update_pause();
     }
     gate_.notify();
@@ -92,9 +93,19 @@ double BackgroundDenoiser::coarse_speed() const {
     return wanted_ && failure_.empty() ? cadence_.coarse_speed() : 0;
 }
 
-double BackgroundDenoiser::history_seconds(uint64_t look) const {
+double BackgroundDenoiser::finishing_seconds(bool enlarges, uint64_t look) const {
     const std::lock_guard lock(mutex_);
+    if (enlarges) return enlarging_seconds_;
     return history_look_ == look ? history_seconds_ : 0;
+}
+
+void BackgroundDenoiser::supersede(uint64_t image) {
+    {
+        const std::lock_guard lock(mutex_);
+        newest_image_ = image;
+        update_pause();
+    }
+    gate_.notify();
 }
 
 bool BackgroundDenoiser::is_on() const {
@@ -142,7 +153,7 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::finish(const Task& task, Denoise
     output_.is_corrected = denoised->denoised.bias_corrected;
     const double made = now();
     history_.follow(task.frame, *denoised, &*workers_);
-    return {std::move(denoised), {}, now() - begun, now() - made};
+    return {std::move(denoised), {}, now() - begun, made - begun, now() - made};
 }
 
 BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
@@ -164,7 +175,7 @@ BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, Denois
 }
 
 bool BackgroundDenoiser::may_correct_again() const {
-    if (!wanted_ || !failure_.empty() || !newest_.frame || newest_.image != output_.image) return false;
+    if (!wanted_ || !failure_.empty() || !newest_.frame || newest_.image != output_.image || newest_.image != newest_image_) return false;
     const Frame& frame = *newest_.frame;
     if (frame.divider > 1 || frame.half_difference.empty() || std::max<size_t>(1, frame.groups.size()) != output_.planes.size())
         return false;
@@ -200,7 +211,8 @@ void BackgroundDenoiser::release(std::unique_lock<std::mutex>& lock) {
 }
 
 DenoiseCadence::Decision BackgroundDenoiser::due() const {
-    return wanted_ && maker_ && failure_.empty() ? cadence_.next(now()) : DenoiseCadence::Decision{};
+    const bool outdated = newest_.image != newest_image_ && !newest_.promised;
+    return wanted_ && maker_ && failure_.empty() && !outdated ? cadence_.next(now()) : DenoiseCadence::Decision{};
 }
 
 // Before the thread that offers a frame continues to render.
@@ -238,7 +250,9 @@ void BackgroundDenoiser::run() {
         cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.denoised != nullptr);
         failure_ = std::move(outcome.failure);
         history_look_ = history_.look();
-        if (outcome.denoised && outcome.denoised->has_history() && !outcome.denoised->is_enlarged)
+        if (outcome.denoised && outcome.denoised->is_enlarged)
+            enlarging_seconds_ = outcome.seconds_of_enlarging;
+        else if (outcome.denoised && outcome.denoised->has_history())
             history_seconds_ = outcome.seconds_of_history;
         running_ = {};
         update_pause();

@@ -49,8 +49,12 @@ public:
     bool offer(uint64_t image, FramePtr frame);
     // Expected seconds per megapixel to denoise a first, coarse image; 0 if such images are not denoised or the speed is not known yet.
     double coarse_speed() const;
-    // Expected seconds to mix a first, coarse image with view history, if there is any of this look (Submission::look); else 0.
-    double history_seconds(uint64_t look) const;
+    // Expected seconds that a first, coarse image takes after its network: to enlarge it by first hits, or to mix it with view history, if
+    // there is any of this look (Submission::look).
+    double finishing_seconds(bool enlarges, uint64_t look) const;
+    // A newer image was submitted: the run for an older one, unless promised, stops, so that it does not slow down the first frame. Never
+    // blocks.
+    void supersede(uint64_t image);
     // True while denoised images are wanted and can be made.
     bool is_on() const;
     // True while the denoiser should run alone: rendering pauses. False again before the result is handed over, or before want()
@@ -69,7 +73,7 @@ private:
         DenoisedPtr denoised;
         std::string failure;
         double seconds_not_denoising = 0; // of preparation of the network, bias correction, enlarging, and history
-        double seconds_of_history = 0;
+        double seconds_of_enlarging = 0, seconds_of_history = 0;
     };
 
     // Images of the network, before their bias is corrected.
@@ -118,7 +122,8 @@ private:
     std::string failure_;
     double unwanted_since_ = 0;
     uint64_t history_look_ = 0;
-    double history_seconds_ = 0.006; // of the last first image; at first as measured for 1280x720 on two cores
+    // Of the last coarse images; at first as measured for 1280x720 on two cores.
+    double enlarging_seconds_ = 0.008, history_seconds_ = 0.006;
 
     // Used only by the denoiser thread: the denoiser while it exists, the exposure scales of the last image (one per light group
     // if groups are mixed) and that image.

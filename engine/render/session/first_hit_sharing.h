@@ -10,6 +10,8 @@ namespace blush {
 
 class FirstHitSharing {
 public:
+    // True if coarse frames of the renderer's scene get known first hits, unless they show a region.
+    static bool knows(const Renderer& renderer) { return renderer.has_sharp_first_hits() && renderer.first_hits(); }
     // A coarse frame gets the first hits of the renderer's scene: known ones, or traced here, for the first image of an edit only if that
     // is fast. None for a region, or where first hits are not sharp. A frame of full size has them: the renderer keeps them for the next
     // edits.

@@ -238,8 +238,6 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     error_cadence.restart();
     estimated = {};
     scheduler.restart(film_settings, true);
-    const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
-    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed(), denoiser->history_seconds(current->look));
     announce(SessionStatus::State::updating);
     if (!renderer)
         renderer.emplace(RendererOptions{
@@ -247,6 +245,10 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     renderer->set_planes(wanted_planes());
     renderer->begin_image(current->base(), film_settings, current->groups);
     if (current->groups) renderer->set_mix(current->mixing);
+    const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
+    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed(),
+                               denoiser->finishing_seconds(FirstHitSharing::knows(*renderer), current->look));
+    if (renderer->begins_with_seeds()) scheduler.expect_seeds();
     has_scene = true;
     restart_reason.clear();
     if (film) go_on_from(*film);
@@ -315,7 +317,7 @@ void RenderSession::State::render_batch() {
                (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     };
     // Not within the time of the samples, from which that of the next image is predicted.
-    if (work.divider == 1 && work.first_sample > 0 && !renderer->decide(wanted, work.first_sample + work.count)) return;
+    if (work.decides && !renderer->decide(wanted, std::max<int64_t>(2, work.first_sample + work.count))) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
     if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {
@@ -395,6 +397,7 @@ SubmissionPtr RenderSession::State::submit(uint64_t revision, const SubmissionCo
         if (!film && pending && pending->content->image == next->image) film = pending->film;
         replaced = std::exchange(pending, PendingSubmission{next, std::move(film), Clock::now()});
     }
+    denoiser->supersede(next->image);
     gate.notify();
     wake.notify_one();
     return next;

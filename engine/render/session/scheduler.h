@@ -15,6 +15,7 @@ struct Work {
     bool clear = false;         // clears the film: another divider, or outdated contents
     bool always_finish = false; // the first frame of a revision is never cancelled, so that a drag always shows something
     bool publish = false;       // resolve and publish a frame afterwards
+    bool decides = false;       // the pilots that these samples need run before them
 };
 
 // Similar to Cycles: a first image within a display frame, more samples of it while a first sample at full resolution would take much
@@ -27,6 +28,8 @@ public:
         double sample_seconds = 0;
         // The same of first samples and coarse images, which pilots have no part in; 0: unknown.
         double first_sample_seconds = 0;
+        // The same where these begin with kept seeds of manifold sampling, whose walks take time.
+        double seeded_first_sample_seconds = 0;
     };
 
     // Tracing time of the coarse image: half a frame of 60 Hz. Cancelling, resolving and drawing take the rest.
@@ -44,11 +47,13 @@ public:
     // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);
     // After a restart: seconds that denoising would take per film pixel of a coarse image, 0: first images are shown as they are; and that
-    // mixing the result with view history takes.
-    void expect_denoising(double seconds_per_pixel, double history_seconds = 0) {
+    // enlarging the result by first hits, or mixing it with view history, takes.
+    void expect_denoising(double seconds_per_pixel, double finishing_seconds = 0) {
         denoising_seconds_per_pixel_ = seconds_per_pixel;
-        history_seconds_ = history_seconds;
+        finishing_seconds_ = finishing_seconds;
     }
+    // After a restart: first samples begin with kept seeds (LearnedSampling::kept_seeds).
+    void expect_seeds() { seeded_ = true; }
     // After a restart: continues from so many samples per pixel, rendered in `seconds`.
     void resume(int64_t samples, double seconds);
     // For changed stop rules of an unchanged image.
@@ -74,6 +79,7 @@ public:
 
 private:
     int first_divider() const;
+    double first_sample_seconds() const;
     int divider_within(double budget, double full_seconds) const;
     bool coarse_image_is_worth_more() const;
     double publish_interval() const;
@@ -85,8 +91,8 @@ private:
     int last_first_divider_ = 0; // of the first image of the revision before; 0: none
     int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
-    bool interactive_ = true;
-    double denoising_seconds_per_pixel_ = 0, history_seconds_ = 0;
+    bool interactive_ = true, seeded_ = false;
+    double denoising_seconds_per_pixel_ = 0, finishing_seconds_ = 0;
     double seconds_ = 0;      // render time of this revision
     double last_publish_ = 0; // seconds_ when last published
     double error_ = -1;       // last estimate, made at

@@ -331,6 +331,30 @@ TEST(KeptSeeds, ImagesAfterTheFirstSampleAreThoseOfAFreshStart) {
     }
 }
 
+// Where the first sample with seeds would be slow, the session lets the pilots decide before it.
+TEST(KeptSeeds, PilotsMayRunBeforeTheFirstSample) {
+    const Stage stage;
+    const RenderSettings settings = with_manifolds(80, 48, 4);
+    Renderer untrained(with_seeds(false)), renderer(with_seeds(true));
+    edit(untrained, stage.scene, stage.brighter(), settings);
+    ASSERT_TRUE(untrained.render(0, 4));
+
+    edit(renderer, stage.scene, stage.brighter(), settings);
+    renderer.set_divider(4);
+    ASSERT_TRUE(renderer.render(0, 1));
+    EXPECT_TRUE(renderer.begins_with_seeds());
+    ASSERT_TRUE(renderer.decide({}, 2));
+    EXPECT_FALSE(renderer.begins_with_seeds());
+    renderer.set_divider(1);
+    ASSERT_TRUE(renderer.render(0, 1));
+    const RayCounts rays = renderer.resolve().rays;
+    EXPECT_TRUE(renderer.save_film(0)) << "it does not depend on the edit";
+    ASSERT_TRUE(renderer.render(1, 1));
+    EXPECT_EQ(renderer.resolve().rays.camera, 2 * rays.camera) << "the first sample was rendered again";
+    ASSERT_TRUE(renderer.render(2, 2));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), untrained.resolve()));
+}
+
 // Photons do not depend on the camera: after an edit of it the seeds are those that its own pilot would find.
 TEST(KeptSeeds, AfterAnEditOfTheCameraTheFirstSampleIsThatOfThePilots) {
     Stage stage;

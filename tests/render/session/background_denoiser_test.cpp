@@ -83,5 +83,48 @@ TEST(BackgroundDenoiser, FramesWithMoreSamplesCorrectTheImageOfTheNetworkWithout
     }
 }
 
+// A network that runs until it is cancelled, or let go.
+struct EndlessBench {
+    std::atomic<int> begun{0}, cancelled{0}, answers{0};
+    std::atomic<bool> let_go{false};
+    PauseGate gate;
+    BackgroundDenoiser denoiser{[this]() -> DenoiseFunction {
+                                    return [this](const DenoiseInput& input, const DenoiseOptions&, const std::function<bool()>& wanted) {
+                                        ++begun;
+                                        while (!let_go)
+                                            if (!wanted()) {
+                                                ++cancelled;
+                                                return Result<std::optional<Denoised>>(std::optional<Denoised>());
+                                            }
+                                        Denoised denoised;
+                                        denoised.rgb.assign(3 * size_t(input.width) * size_t(input.height), 0.5f);
+                                        return Result<std::optional<Denoised>>(std::optional(std::move(denoised)));
+                                    };
+                                },
+                                1,
+                                false,
+                                60,
+                                gate,
+                                [this](uint64_t, const FramePtr&, const DenoisedPtr& denoised) { answers += denoised != nullptr; },
+                                [] {}};
+};
+
+TEST(BackgroundDenoiser, ANewerImageStopsTheRunBeforeItsFirstFrame) {
+    EndlessBench bench;
+    bench.denoiser.want(true);
+    bench.denoiser.offer(1, frame_of(1));
+    ASSERT_TRUE(test::eventually([&] { return bench.begun == 1; }));
+    bench.denoiser.supersede(2);
+    ASSERT_TRUE(test::eventually([&] { return bench.cancelled == 1; }));
+
+    // One more frame of the old image, rendered when the newer one was submitted.
+    bench.denoiser.offer(1, frame_of(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    bench.let_go = true;
+    bench.denoiser.offer(2, frame_of(1));
+    ASSERT_TRUE(test::eventually([&] { return bench.answers == 1; }));
+    EXPECT_EQ(bench.begun, 2) << "the old image was denoised again";
+}
+
 } // namespace
 } // namespace blush::TEST_FILE

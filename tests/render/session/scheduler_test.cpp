@@ -110,6 +110,47 @@ TEST(Scheduler, FirstImageLeavesTimeForHistory) {
     }
 }
 
+// Walks from kept seeds make first samples slower, and the pilots discard them.
+TEST(Scheduler, ImagesThatBeginWithSeedsHaveTimingsOfTheirOwn) {
+    constexpr double plain = 0.1, decided = 0.2, seeded = 0.9;
+    const auto run = [](Scheduler& scheduler, bool seeds, int64_t spp = 0) {
+        RenderSettings settings = endless();
+        settings.spp = spp;
+        scheduler.restart(settings, true);
+        if (seeds) scheduler.expect_seeds();
+        std::vector<Work> done;
+        while (!scheduler.finished() && scheduler.samples() < 8) {
+            const Work work = scheduler.next();
+            done.push_back(work);
+            const bool first = work.divider > 1 || work.first_sample == 0;
+            const Machine machine{!first || work.decides ? decided : seeds ? seeded : plain};
+            machine.do_work(scheduler, work);
+        }
+        return done;
+    };
+    const auto fits = [](const Work& first, double sample_seconds) {
+        return first.divider == trained({sample_seconds}, endless()).next().divider;
+    };
+    const auto first_of_full_size = [](const std::vector<Work>& done) {
+        return *std::ranges::find_if(done, [](const Work& w) { return w.divider == 1; });
+    };
+    Scheduler scheduler;
+    run(scheduler, false);
+    const std::vector<Work> before = run(scheduler, false);
+    EXPECT_TRUE(fits(before.front(), plain));
+    EXPECT_FALSE(first_of_full_size(before).decides);
+    EXPECT_TRUE(before.back().decides);
+
+    const std::vector<Work> unknown = run(scheduler, true);
+    EXPECT_GT(unknown.front().divider, before.front().divider) << "expected to be slower than decided samples";
+    const std::vector<Work> known = run(scheduler, true);
+    EXPECT_TRUE(fits(known.front(), seeded)) << known.front().divider;
+    EXPECT_TRUE(first_of_full_size(known).decides);
+    EXPECT_TRUE(fits(run(scheduler, false).front(), plain)) << "these keep their own";
+
+    EXPECT_FALSE(first_of_full_size(run(scheduler, true, 1)).decides) << "an image of one sample has no pilots";
+}
+
 TEST(Scheduler, FirstImageHasAMinimumSize) {
     EXPECT_EQ(trained({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
