@@ -187,19 +187,20 @@ FilmSize film_size(const FilmState& state) {
     return size;
 }
 
-Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings) {
+Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings, bool half_difference) {
     if (state.width < 1 || state.height < 1 || state.samples < 1) return Error{"", "there are no samples", ""};
     FilmSize size = film_size(state);
     size.adaptive = settings.adaptive;
+    size.planes.half_difference = half_difference;
     try {
         film.reset(size, settings.clamp);
     } catch (const std::exception& e) { return Error{"", e.what(), ""}; }
     return load_film(film, state);
 }
 
-Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads) {
+Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads, bool half_difference) {
     Film film;
-    if (const auto loaded = load_new_film(film, state, settings); !loaded) return loaded.error();
+    if (const auto loaded = load_new_film(film, state, settings, half_difference); !loaded) return loaded.error();
     // Saved ids are ids; a frame stores table indices + 1.
     ResolvedFilm resolved;
     Frame& frame = resolved.frame;

@@ -53,19 +53,21 @@ FilmState save_film(const Film& film);
 // Loads into a film that was reset for the same image. Errors: another size, light paths only in one of both (their samples have
 // other MIS weights), or a missing plane.
 Result<void> load_film(Film& film, const FilmState& state);
-// The same into a film that is reset for it first. Errors as above; no samples; not enough memory.
-Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings);
+// The same into a film that is reset for it first, with PlaneSet::half_difference as asked. Errors as above; no samples; not enough
+// memory.
+Result<void> load_new_film(Film& film, const FilmState& state, const RenderSettings& settings, bool half_difference = false);
 // Adds other samples of the same image to the film: as if it had rendered them. First hits stay those of the earlier samples.
 // Health counts are added, the lists of worst samples merged. Errors as above.
 Result<void> add_film(Film& film, const FilmState& more);
 
 // The image of a film state made with these settings: pixels, planes, error, health; all that Renderer::resolve() gives except
-// the data of the renderer. Errors as load_film, or an invalid size.
+// the data of the renderer. `half_difference`: with Frame::half_difference. Errors as load_film, or an invalid size.
 struct ResolvedFilm {
     Frame frame;
     std::vector<Vec3> error; // standard error of each pixel's mean, RGB; empty if not known
 };
-Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads = 0);
+Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& settings, unsigned threads = 0,
+                                  bool half_difference = false);
 // Scales each light group by its factor, as if rendered so from the first sample.
 void scale_groups(FilmState& state, std::span<const Vec3> factors);
 

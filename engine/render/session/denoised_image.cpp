@@ -37,10 +37,7 @@ void correct_biases(const Frame& source, std::vector<Denoised>& denoised, const 
     const std::vector<DenoiseInput> inputs = denoise_inputs(source);
     for (size_t k = 0; k < denoised.size(); ++k) {
         const std::vector<Vec3>& halves = source.groups.empty() ? source.half_difference : source.group_half_differences[k];
-        Denoised& d = denoised[k];
-        correct_bias(d.rgb, inputs[k].color, halves, source.width, source.height, d.exposure_scale, workers);
-        d.mean_after = mean_luminance(d.rgb, 3);
-        d.bias_corrected = true;
+        correct(denoised[k], inputs[k], halves, workers);
     }
 }
 
@@ -52,6 +49,12 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
     std::vector<DenoiseInput> inputs(frame.groups.size(), whole);
     for (size_t k = 0; k < inputs.size(); ++k) inputs[k].color = view_of(frame.groups[k]);
     return inputs;
+}
+
+void correct(Denoised& denoised, const DenoiseInput& input, std::span<const Vec3> half_difference, const Workers* workers) {
+    correct_bias(denoised.rgb, input.color, half_difference, input.width, input.height, denoised.exposure_scale, workers);
+    denoised.mean_after = mean_luminance(denoised.rgb, 3);
+    denoised.bias_corrected = true;
 }
 
 std::shared_ptr<DenoisedImage> denoised_image(const Frame& source, DenoiseQuality quality, std::vector<Denoised> denoised,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -71,11 +72,13 @@ TEST(DenoiseCommand, AddsALayerAndKeepsEverythingElse) {
     const LayeredImage in = noisy_image(true);
     write(folder / "in.exr", in);
     const Json json = blush_json({"denoise", folder / "in.exr", "-o", folder / "out.exr", "--quality", "fast"});
-    EXPECT_EQ(test::keys_of(json), (std::vector<std::string>{"bias_corrected", "energy_change_percent", "guides", "height", "input",
-                                                             "network", "output", "precision", "sanitised", "seconds", "tiles", "width"}));
+    EXPECT_EQ(test::keys_of(json),
+              (std::vector<std::string>{"bias_corrected", "energy_change_percent", "guides", "height", "input", "network",
+                                        "not_corrected_because", "output", "precision", "sanitised", "seconds", "tiles", "width"}));
     EXPECT_EQ(json["network"], "rt_hdr_alb_nrm_small");
     EXPECT_EQ(json["guides"], (Json{"albedo", "normal"}));
-    EXPECT_EQ(json["bias_corrected"], false) << "a file has no half buffers";
+    EXPECT_EQ(json["bias_corrected"], false);
+    EXPECT_EQ(json["not_corrected_because"], "no samples in the file: render it with --layers film");
     EXPECT_EQ(json["sanitised"], 0);
     EXPECT_LT(std::abs(json["energy_change_percent"].get<double>()), 20);
     const Result<LayeredImage> out = read_layers(folder / "out.exr");
@@ -95,6 +98,47 @@ TEST(DenoiseCommand, AddsALayerAndKeepsEverythingElse) {
         EXPECT_LT(deviation(denoised->values), 0.3 * deviation(in.find(name)->values)) << name;
     }
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "no other files remain";
+}
+
+// The samples of the file have half buffers.
+TEST(DenoiseCommand, CorrectsTheBiasAsTheRenderDoes) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("card-and-mug");
+    const auto render = [&](const char* file, const char* spp, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", scene,   "-o", folder / file, "--size",
+                                           "48x32",  "--spp", spp,  "--layers",    "albedo,normal,film"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        ASSERT_EQ(test::blush(arguments).exit_code, 0) << file;
+    };
+    render("in.exr", "8", {"--denoise", "fast"});
+    const Json json = blush_json({"denoise", folder / "in.exr", "-o", folder / "out.exr", "--quality", "fast"});
+    EXPECT_EQ(json["bias_corrected"], true);
+    EXPECT_EQ(json["not_corrected_because"], "");
+    const LayeredImage in = *read_layers(folder / "in.exr");
+    const LayeredImage out = *read_layers(folder / "out.exr");
+    EXPECT_EQ(in.channels.size(), out.channels.size());
+    EXPECT_TRUE(out.metadata.at("blush:denoised").ends_with("bias corrected"));
+    for (const char* name : {"denoised.R", "denoised.G", "denoised.B"}) {
+        ASSERT_TRUE(in.find(name) && out.find(name)) << name;
+        EXPECT_EQ(out.find(name)->values, in.find(name)->values) << name << ", to the last bit";
+    }
+    const auto why_not = [&](const std::string& file) {
+        const Json without = blush_json({"denoise", file, "-o", folder / "without.exr", "--quality", "fast"});
+        EXPECT_EQ(without["bias_corrected"], false);
+        return without["not_corrected_because"].get<std::string>();
+    };
+    LayeredImage edited = out;
+    const auto red = std::ranges::find(edited.channels, "R", &LayeredImage::Channel::name);
+    for (float& v : red->values) v *= 1.01f;
+    write(folder / "edited.exr", edited);
+    EXPECT_EQ(why_not(folder / "edited.exr"), "the pixels are not those of the samples in the file");
+    LayeredImage damaged = out;
+    for (LayeredImage::Channel& channel : damaged.channels)
+        if (channel.name.starts_with("film.even.R")) std::ranges::fill(channel.words, 1u);
+    write(folder / "damaged.exr", damaged);
+    EXPECT_FALSE(why_not(folder / "damaged.exr").empty());
+    render("one.exr", "1", {});
+    EXPECT_EQ(why_not(folder / "one.exr"), "no two halves of samples in the file");
 }
 
 TEST(DenoiseCommand, IsIdempotent) {
