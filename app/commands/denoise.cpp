@@ -107,7 +107,7 @@ void correct_by(Halves& halves, const DenoiseInput& input, const std::vector<flo
         return;
     }
     const Workers workers(threads);
-    correct(denoised, input, halves.difference, &workers);
+    correct_bias_of(denoised, input, halves.difference, &workers);
 }
 
 // All channels of the file, with the new layer after the beauty.

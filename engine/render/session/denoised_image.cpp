@@ -37,7 +37,7 @@ void correct_biases(const Frame& source, std::vector<Denoised>& denoised, const 
     const std::vector<DenoiseInput> inputs = denoise_inputs(source);
     for (size_t k = 0; k < denoised.size(); ++k) {
         const std::vector<Vec3>& halves = source.groups.empty() ? source.half_difference : source.group_half_differences[k];
-        correct(denoised[k], inputs[k], halves, workers);
+        correct_bias_of(denoised[k], inputs[k], halves, workers);
     }
 }
 
@@ -51,7 +51,7 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame) {
     return inputs;
 }
 
-void correct(Denoised& denoised, const DenoiseInput& input, std::span<const Vec3> half_difference, const Workers* workers) {
+void correct_bias_of(Denoised& denoised, const DenoiseInput& input, std::span<const Vec3> half_difference, const Workers* workers) {
     correct_bias(denoised.rgb, input.color, half_difference, input.width, input.height, denoised.exposure_scale, workers);
     denoised.mean_after = mean_luminance(denoised.rgb, 3);
     denoised.bias_corrected = true;

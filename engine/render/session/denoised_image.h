@@ -57,7 +57,8 @@ std::vector<DenoiseInput> denoise_inputs(const Frame& frame);
 
 // Corrects the bias of one of these by its half differences (bias_correction.h), and what it says about itself. Null workers: on this
 // thread.
-void correct(Denoised& denoised, const DenoiseInput& input, std::span<const Vec3> half_difference, const Workers* workers = nullptr);
+void correct_bias_of(Denoised& denoised, const DenoiseInput& input, std::span<const Vec3> half_difference,
+                     const Workers* workers = nullptr);
 
 // Combines the results for denoise_inputs(), with their bias corrected if the frame has half differences (bias_correction.h); groups are
 // mixed with the frame's gains. Enlarged by the frame's first hits, if it has them.
