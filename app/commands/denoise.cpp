@@ -71,9 +71,9 @@ PixelView view_of(const std::vector<float>& plane) { return {plane, 3}; }
 
 // What the samples in the file say about its noise, for bias_correction.h.
 struct Halves {
-    std::vector<Vec3> difference = {}; // Frame::half_difference; empty: not known, because of
-    std::string why_not = {};
-    std::vector<float> rgba = {}; // the image of the samples
+    std::vector<Vec3> difference = {}; // Frame::half_difference; empty: not known
+    std::string why_not = {};          // reason why the bias is not corrected
+    std::vector<float> rgba = {};      // the image of the samples
 };
 
 // Reads the film alone, and before the image: it may fill most of the memory. A damaged one leaves the bias as it is.

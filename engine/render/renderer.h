@@ -82,7 +82,7 @@ public:
     // true. False if stopped: pixels then hold different numbers of samples, which can be shown but not continued. Results do not
     // depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per pixel on
     // average (sample_allocation.h), whatever `first`, except for a part. Where the pilots gain much, the first sample of a film is
-    // rendered again with the second (LearnedSampling::renews_first).
+    // rendered again with the second (LearnedSampling::renews_first), or at once as they decided if they have run before it.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     // Renders a lone first sample that used a field of before an edit again, as after a fresh start. False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});

@@ -316,7 +316,7 @@ void RenderSession::State::render_batch() {
         return !quit.load(std::memory_order_relaxed) &&
                (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     };
-    // Not within the time of the samples, from which that of the next image is predicted.
+    // Not within the time of the samples, from which that of the next image is predicted. Pilots decide for the second sample on.
     if (work.decides && !renderer->decide(wanted, std::max<int64_t>(2, work.first_sample + work.count))) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
