@@ -13,7 +13,7 @@
 #include "render/film/pilot_variance.h"
 #include "render/film/sample_allocation.h"
 #include "render/film/shadow_catcher.h"
-#include "render/pilots/edge_choice.h"
+#include "render/pilots/edges/edge_choice.h"
 #include "render/pilots/learned_sampling.h"
 #include "render/renderer.h"
 #include "render/tile_shape.h"

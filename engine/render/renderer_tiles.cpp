@@ -1,10 +1,10 @@
 // Renders samples, tile by tile.
 #include "render/diagnostics/fault_finder.h"
-#include "render/diagnostics/highlight_pilot.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/reuse_groups.h"
 #include "render/kernels/stage_timer.h"
-#include "render/pilots/edge_pilot.h"
+#include "render/pilots/edges/edge_pilot.h"
+#include "render/pilots/edges/highlight_pilot.h"
 #include "render/renderer_state.h"
 
 #include <algorithm>
@@ -199,7 +199,7 @@ bool Renderer::State::needs_highlights() const { return !highlights && scene.may
 bool Renderer::State::find_edges_and_highlights(const KernelContext& context, const Wanted& wanted) {
     std::optional<Sightings> sightings = Sightings{};
     if (needs_highlights() || (edges.needs_pilot() && edges.longest_chain() > 0))
-        sightings = find_small_highlights(context, workers, replays, wanted);
+        sightings = find_small_highlights(context, *kernel, workers, replays, wanted);
     if (!sightings) return false;
     if (!edges.needs_pilot() || edges.longest_chain() == 0) {
         if (needs_highlights()) highlights = highlights_of(*sightings);

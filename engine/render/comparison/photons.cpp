@@ -35,8 +35,7 @@ void shade_photons(const KernelContext& context, TileScratch& scratch, const Pat
             photons.push_back({p.surface.position, p.side.wo, p.beta * amount, bounce});
         }
         if (bounce + 1 >= context.settings.max_bounces) continue;
-        const LightPathVertex<float> v{p.surface, p.material, p.side,     p.shading, p.bsdf, clamped_cosine<float>(p.shading.ng, p.side.wo),
-                                       p.beta,    p.scatters, p.dispersed};
+        const LightPathVertex<float> v{p, clamped_cosine<float>(p.shading.ng, p.side.wo)};
         continue_light_path<s, float>(context, path, v, bounce, scratch, next, queue);
     }
 }

@@ -31,7 +31,7 @@ bool SmallHighlights::may_be_missed(double samples, int64_t pixels, double squar
     double missed = 0;
     for (size_t k = 0; k < bands.size(); ++k) {
         const Band& band = bands[k];
-        const double covered = band.rate * double(pixels), taken = samples * samples_of_set[k / num_bands];
+        const double covered = band.rate * double(pixels), taken = samples * std::max(1, samples_of_set[k / num_bands]);
         if (covered * taken >= min_meetings) continue;
         const Vec3d all = band.sum * double(pixels);
         missed += dot(all, all) / std::max(1.0, covered);

@@ -20,15 +20,15 @@ struct SmallHighlights {
         bool operator==(const Band&) const = default;
     };
     static constexpr int first_octave = -16, num_bands = 64; // a band an octave
-    // Those of ordinary pixels, and of pixels that take `highlight_samples` and `bright_highlight_samples` samples of them for each sample
-    // (edge_pixels.h).
-    static constexpr std::array samples_of_set{1, highlight_samples, bright_highlight_samples};
+    // Those of ordinary pixels, 0, and of pixels that take so many samples of them for each sample (edge_pixels.h). Films are saved with
+    // the numbers of bands.
+    static constexpr std::array samples_of_set{0, highlight_samples, bright_highlight_samples, faint_highlight_samples};
     std::array<Band, samples_of_set.size() * num_bands> bands;
 
     // The band of light that adds this luminance to a sample, nits, in pixels that take so many samples of it: one of `samples_of_set`.
     static size_t octave_of(double luminance);
-    Band& of(double luminance, int samples = 1);
-    void add(double luminance, const Band& light, int samples = 1);
+    Band& of(double luminance, int samples = 0);
+    void add(double luminance, const Band& light, int samples = 0);
     bool operator==(const SmallHighlights&) const = default;
 
     // True if highlights that the samples of an image have hardly met may be a large part of its squared error. `samples`: per pixel;

@@ -9,8 +9,9 @@
 
 namespace blush {
 
-// Emission samples per sample of a pixel: at an edge; with a highlight, which may cover a hundredth of it; with a bright one.
-constexpr int edge_samples = 16, highlight_samples = 64, bright_highlight_samples = 512;
+// Emission samples per sample of a pixel: at an edge; with faint images of lamps; with a highlight, which may cover a hundredth of the
+// pixel; with a bright one.
+constexpr int edge_samples = 16, faint_highlight_samples = 1, highlight_samples = 64, bright_highlight_samples = 512;
 // Delta lobes between camera and lamp, for highlights.
 constexpr int longest_highlight_chain = 8;
 

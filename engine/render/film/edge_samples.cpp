@@ -85,6 +85,7 @@ void refine_sample(TileScratch& tile, int slot, const EdgeScratch& scratch, cons
 struct Run {
     int x, y, width, emission_samples;
 };
+constexpr int most_chains = tile_capacity / most_copies; // that the kernel traces at once
 
 // For its samples `first`, `first` + step, ... of the tile, which are in one half of the film.
 void refine_half(const KernelContext& context, const Kernel& kernel, const Run& run, const TileJob& job, int first, int step,
@@ -93,13 +94,17 @@ void refine_half(const KernelContext& context, const Kernel& kernel, const Run& 
     const int64_t sample = job.sample(first), half = sample & 1;
     KernelContext apart = context;
     apart.seed ^= edge_seed;
-    const TileJob more{run.x, run.y, run.width, 1, 2 * (sample >> 1) * each + half, count * each, 2};
-    kernel.render(apart, more, scratch.more);
-    for (int x = 0; x < run.width; ++x)
-        for (int k = 0; k < count; ++k) {
-            const int s = first + k * step, pixel = (run.y - job.y) * job.width + run.x - job.x + x;
-            refine_sample(tile, pixel * job.samples + s, scratch, {x * job.samples + s, (x * count + k) * each, each});
-        }
+    const int at_once = std::max(1, most_chains / (run.width * each));
+    for (int done = 0; done < count; done += at_once) {
+        const int now = std::min(at_once, count - done);
+        const TileJob more{run.x, run.y, run.width, 1, 2 * ((sample >> 1) + done) * each + half, now * each, 2};
+        kernel.trace_chains(apart, more, scratch.more);
+        for (int x = 0; x < run.width; ++x)
+            for (int k = 0; k < now; ++k) {
+                const int s = first + (done + k) * step, pixel = (run.y - job.y) * job.width + run.x - job.x + x;
+                refine_sample(tile, pixel * job.samples + s, scratch, {x * job.samples + s, (x * now + k) * each, each});
+            }
+    }
 }
 
 void refine_run(const KernelContext& context, const Kernel& kernel, const Run& run, const TileJob& job, TileScratch& tile,
@@ -136,7 +141,7 @@ void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixe
     if (tile.bounces) record_all_bounces(tile, job.paths());
     for (int y = job.y; y < job.y + job.height; ++y)
         for (int x = job.x; x < job.x + job.width; ++x) {
-            const int begin = x, each = pixels.samples(x, y), longest = each ? std::max(1, tile_capacity / (job.samples * each)) : 0;
+            const int begin = x, each = pixels.samples(x, y), longest = each ? std::max(1, most_chains / (job.samples * each)) : 0;
             while (x < job.x + job.width && x - begin < longest && pixels.samples(x, y) == each) ++x;
             if (x > begin) refine_run(context, kernel, {begin, y, x-- - begin, each}, job, tile, scratch);
         }

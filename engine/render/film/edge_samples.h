@@ -18,10 +18,10 @@ struct EdgeScratch {
 //
 //     radiance - e0 + (e1 + ... + eM) / M
 //
-// e0 is the emission that the sample's own path has found, so the mean stays the same. All of them are renders of emission alone
-// (`emission_only`), of at most `pixels.longest_chain()` scatterings. e0 has the seed and the index of the sample. The others have a seed
-// of their own, and those of all samples of a half of the film are one sequence of the sampler; so the halves stay independent, and a
-// sample is the same in any range in which it is rendered.
+// e0 is the emission that the sample's own path has found, so the mean stays the same: a render of emission alone (`emission_only`), of at
+// most `pixels.longest_chain()` scatterings, with the seed and the index of the sample. The others follow all delta lobes
+// (integrator/delta_chains.h). They have a seed of their own, and those of all samples of a half of the film are one sequence of the
+// sampler; so the halves stay independent, and a sample is the same in any range in which it is rendered.
 //
 // Its rays are not counted: the number of camera rays is that of paths.
 //

@@ -141,6 +141,32 @@ disperse(const Path<F>& path, const F& dispersion, const HitSide<F>& side, const
     return dispersed || splits;
 }
 
+// Where a path meets a surface, with the BSDF for the way that it came. scatter() does not use it: the compiler does not remove copies.
+template <class F> struct ShadedHit {
+    Surface<F> surface;
+    MaterialPoint<F> material; // with the index of refraction of the path's wavelength
+    HitSide<F> side;
+    Vec<F> arriving; // throughput behind the absorption on the way,
+    Vec<F> beta;     // and as that of the path's wavelength
+    Mask<F> scatters, dispersed;
+    ShadingFrame<F> shading;
+    Bsdf<F> bsdf;
+};
+// In the lanes of `met`. `width`: of the texture filter, metres.
+template <Features S, class F> [[gnu::always_inline]] inline ShadedHit<F>
+shade_hit(const SceneTables& scene, const EnergyTable* energy, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met, const F& width) {
+    ShadedHit<F> p;
+    p.surface = surface_at<S, F>(scene, hit, met, width);
+    p.material = material_at<S, F>(scene.materials, p.surface.material, p.surface.texture, p.surface.color, met);
+    p.side = hit_side<S, F>(p.surface, p.material, path.ray.direction);
+    p.arriving = p.beta = attenuate<S, F>(path.beta, p.material, hit.t, p.side, met);
+    p.scatters = met && !p.material.unlit;
+    p.shading = shading_frame_at<S, F>(p.surface, p.material, p.side.wo, p.side.front, p.side.solid);
+    p.dispersed = disperse<S, F>(path, p.material.dispersion, p.side, p.scatters, p.material.bsdf.ior, p.beta);
+    p.bsdf = make_bsdf<S, F>(p.material.bsdf, p.shading.wo, energy);
+    return p;
+}
+
 // A surface point with its BSDF. Refers to its parts, because the compiler does not remove copies of them.
 template <class F> struct ShadingPoint {
     const Surface<F>& surface;

@@ -63,17 +63,9 @@ template <Features S, class F> CameraConnection<F> connect_camera(const CameraRe
     return c;
 }
 
-// A vertex of a light path.
-template <class F> struct LightPathVertex {
-    Surface<F> surface;
-    MaterialPoint<F> material;
-    HitSide<F> side;         // wo: unit, towards the vertex before
-    ShadingFrame<F> shading; // as seen from the vertex before
-    Bsdf<F> bsdf;            // likewise
-    F cosine;                // between wo and the geometric normal, > 0
-    Vec<F> beta;
-    Mask<F> scatters;
-    Mask<F> dispersed;                        // the path carries a single wavelength
+// A vertex of a light path: `side.wo` is the direction towards the vertex before.
+template <class F> struct LightPathVertex : ShadedHit<F> {
+    F cosine;                                 // between wo and the geometric normal, > 0
     F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
 };
 // Where the path meets a surface, in the lanes of `met`.
@@ -83,15 +75,9 @@ light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, con
     const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
     const float cone = camera_cone(scene.camera, settings);
     const F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
-    const Surface<F> surface = surface_at<S, F>(scene, hit, met, footprint);
-    MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, met);
-    const HitSide<F> side = hit_side<S, F>(surface, material, path.ray.direction);
-    Vec<F> beta = attenuate<S, F>(path.beta, material, hit.t, side, met);
-    const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
-    const Mask<F> scatters = met && !material.unlit;
-    const Mask<F> dispersed = disperse<S, F>(path, material.dispersion, side, scatters, material.bsdf.ior, beta);
-    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
-    return {surface, material, side, shading, bsdf, clamped_cosine<F>(shading.ng, side.wo), beta, scatters, dispersed};
+    LightPathVertex<F> v{shade_hit<S, F>(scene, settings.energy, path, hit, met, footprint), F(0.f)};
+    v.cosine = clamped_cosine<F>(v.shading.ng, v.side.wo);
+    return v;
 }
 // Weight of a sample of a delta lobe: what it leaves of the light that passes it. `cosine`: between wi and the geometric normal; `choice`:
 // of the lobe.

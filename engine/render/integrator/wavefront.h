@@ -87,21 +87,17 @@ template <class F> void note_roulette(RouletteColumns& c, const int32_t* slots, 
     counts.survived += count(rr_applied && (step.continues || step.non_finite));
 }
 
-template <Features S, class F>
-[[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+// Where begin_paths() finds the pixel and the sample of each slot: columns that are free before the first rays.
+struct SampleColumns {
+    float *x, *y;
+    uint32_t* sample;
+};
+inline SampleColumns sample_columns(TileScratch& scratch) { return {scratch.hits.t, scratch.hits.u, scratch.random}; }
+
+// Camera rays of the first n slots, whose samples are in sample_columns().
+template <Features S, class F> [[gnu::always_inline]] inline void begin_paths(const KernelContext& context, int n, TileScratch& scratch) {
     PathQueue& q = scratch.paths[0];
-    // Computes pixel and sample of each slot by counting; uses the ray columns as scratch memory.
-    float* xs = scratch.hits.t;
-    float* ys = scratch.hits.u;
-    uint32_t* samples = scratch.random;
-    int n = 0;
-    for (int y = 0; y < job.height; ++y)
-        for (int x = 0; x < job.width; ++x)
-            for (int s = 0; s < job.samples; ++s, ++n) {
-                xs[n] = float(job.x + x);
-                ys[n] = float(job.y + y);
-                samples[n] = uint32_t(job.sample(s));
-            }
+    const auto [xs, ys, samples] = sample_columns(scratch);
     const uint32_t half[2] = {randomisation(context.seed, 0), randomisation(context.seed, 1)};
     q.size = 0;
     if (!context.scene->adjoint.empty() && !scratch.importance) scratch.importance = std::make_unique<Column<float>>();
@@ -132,6 +128,20 @@ template <Features S, class F>
     std::fill_n(scratch.roulette->length.data, n, 0.f);
     std::fill_n(scratch.roulette->num_rr_applied.data, n, 0.f);
     std::fill_n(scratch.roulette->survival.data, n, 0.f);
+}
+
+template <Features S, class F>
+[[gnu::flatten]] void generate_paths(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    const SampleColumns to = sample_columns(scratch);
+    int n = 0;
+    for (int y = 0; y < job.height; ++y)
+        for (int x = 0; x < job.width; ++x)
+            for (int s = 0; s < job.samples; ++s, ++n) {
+                to.x[n] = float(job.x + x);
+                to.y[n] = float(job.y + y);
+                to.sample[n] = uint32_t(job.sample(s));
+            }
+    begin_paths<S, F>(context, n, scratch);
 }
 
 // Traces the path rays of `now`. In scenes with panes, overwrites `rest` and changes the throughput of paths that pass panes.

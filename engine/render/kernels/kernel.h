@@ -8,6 +8,7 @@
 #include "render/film/stage_times.h"
 #include "render/integrator/estimator_settings.h"
 #include "render/kernels/bounce_columns.h"
+#include "render/kernels/chain_columns.h"
 #include "render/kernels/column.h"
 #include "render/kernels/group_columns.h"
 #include "render/kernels/light_path_columns.h"
@@ -70,7 +71,7 @@ struct RouletteColumns {
     PathCounts counts[max_counted_bounces]; // accumulated
 };
 
-// For splitting (path_splitting.h).
+// For splitting (path_splitting.h) and delta chains (delta_chains.h).
 constexpr int most_copies = 8; // of a sample that are traced at once; a tile whose paths split has room for so many of each
 struct SplittingColumns {
     Column<int32_t> alive;  // by slot: paths of the sample
@@ -111,6 +112,7 @@ struct TileScratch {
     std::unique_ptr<LightPathColumns> light_paths;      // null: no light paths
     std::unique_ptr<ManifoldColumns> manifolds;         // allocated by the first kernel with manifold sampling
     std::unique_ptr<LightVertexColumns> light_vertices; // allocated by the first kernel with light vertices
+    std::unique_ptr<ChainColumns> chains;               // allocated by the first kernel that follows delta chains
     int64_t camera_rays = 0, bounce_rays = 0, shadow_rays = 0, truncated_paths = 0; // accumulated
     StageTicks stages;                                                              // accumulated
 };
@@ -131,6 +133,7 @@ struct Kernel {
     std::string_view name; // of the feature set: "lambert", ...
     Features features;
     TileFunction render = nullptr;
+    TileFunction trace_chains = nullptr;           // the emission at the end of delta chains; or ChainColumns::sights
     LightPathFunction trace_light_paths = nullptr; // null without Feature::light_paths
 };
 

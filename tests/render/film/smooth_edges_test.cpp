@@ -298,7 +298,7 @@ void render_indices(const KernelContext& context, const TileJob& job, TileScratc
 
 // Refines samples whose radiance is their index, their emission, plus 1000.
 std::vector<double> refined(int64_t first, int samples, int stride) {
-    const Kernel kernel{"", "", {}, render_indices};
+    const Kernel kernel{"", "", {}, render_indices, render_indices};
     const auto tile = std::make_unique<TileScratch>();
     const auto scratch = std::make_unique<EdgeScratch>();
     const TileJob job{.x = 3, .y = 2, .width = 2, .height = 1, .first_sample = first, .samples = samples, .stride = stride};

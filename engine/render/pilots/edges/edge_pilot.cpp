@@ -1,7 +1,8 @@
-#include "render/pilots/edge_pilot.h"
+#include "render/pilots/edges/edge_pilot.h"
 
 #include "core/math.h"
 #include "render/film/edge_samples.h"
+#include "render/pilots/edges/highlight_samples.h"
 #include "render/pilots/pilot_tiles.h"
 #include "render/pilots/variant_comparison.h"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace blush {
@@ -33,37 +35,6 @@ struct Samples {
     double at(int x, int y, int s = 0) const { return luminance[(size_t(y) * size_t(width) + size_t(x)) * size_t(per_pixel) + size_t(s)]; }
 };
 
-// Noise and work of the image's paths.
-struct Noise {
-    double mse = 0, relmse = 0, work = 0;
-
-    void add(double variance, double scale) {
-        mse += variance;
-        relmse += variance / scale;
-    }
-    // Falls where work pays.
-    double cost() const { return mse * relmse * work * work; }
-    // True if a fall of a pixel's variance is worth so many more rays for each sample.
-    bool is_worth(double gain, double mean, double rays) const {
-        const double relative_gain = gain / (mean * mean + dark_squared);
-        return gain > 0 && gain / mse + relative_gain / relmse > 2 * rays / work;
-    }
-};
-
-// Samples of a pixel near a sighting.
-struct MeasuredPixel {
-    int x = 0, y = 0;
-    double sum = 0, squares = 0, low = std::numeric_limits<double>::infinity(), high = 0, rays = 0;
-    std::vector<std::pair<double, Vec3d>> met; // luminance and radiance of those that met light behind smooth surfaces
-    // Of the emission; mean of all light; 2 R / E of edge_pilot.h.
-    double variance = 0, mean = 0, cancelled = 0;
-    int samples = 0; // of the emission for each sample; 0: its path's own
-
-    // With so many samples.
-    double variance_with(int each) const { return variance * std::min(1.0, 1.0 / each + cancelled); }
-    // Of relative squares.
-    double scale() const { return mean * mean + dark_squared; }
-};
 constexpr int measured_samples = 128;
 constexpr double significant_sigmas = 2; // of what was sighted, beyond what the samples met
 constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured = 64;
@@ -98,9 +69,10 @@ private:
     void estimate(MeasuredPixel& pixel) const;
     std::vector<SmallHighlights::Band> unmeasured(const Sightings& sightings) const;
     double unexplained_variance(const Sightings& sightings) const;
-    Noise noise_with_highlights(double unexplained) const;
-    void choose_samples(const Noise& before);
+    ImageNoise noise_with_highlights(double unexplained) const;
+    void measure_cells(const Sightings& sightings, double unexplained);
     bool find_highlights(const Sightings& sightings, EdgesFound& found);
+    void add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const;
     const MeasuredPixel* measured_at(int x, int y) const;
     // Of the image's rate of highlights.
     double share_of_sample() const { return 1 / (double(place_.size()) * measured_samples); }
@@ -111,11 +83,12 @@ private:
     const Workers& workers_;
     std::vector<std::unique_ptr<TileScratch>>& scratch_;
     const std::function<bool()>& wanted_;
-    Samples seen_;              // emission of the film
-    Samples paths_, emissions_; // of the coarse image
-    Noise noise_, other_noise_; // of all light; of all but emission that delta lobes lead to
+    Samples seen_;                   // emission of the film
+    Samples paths_, emissions_;      // of the coarse image
+    ImageNoise noise_, other_noise_; // of all light; of all but emission that delta lobes lead to
     std::vector<MeasuredPixel> measured_;
-    std::vector<int32_t> place_; // by pixel: in `measured_`; -1: none
+    std::vector<int32_t> place_;   // by pixel: in `measured_`; -1: none
+    std::vector<FaintCell> cells_; // of the sightings
 };
 
 bool Pilot::render(KernelContext context, const Kernel& kernel, int divider, int per_pixel, Samples& to) {
@@ -229,14 +202,15 @@ void Pilot::choose_measured(const Sightings& sightings) {
                 int32_t& place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
                 if (place >= 0 || measured_.size() == most) continue;
                 place = int32_t(measured_.size());
-                measured_.push_back({.x = x, .y = y});
+                measured_.emplace_back().x = x;
+                measured_.back().y = y;
             }
 }
 
 void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
     const int64_t before = scratch.camera_rays + scratch.bounce_rays;
     scratch.bounces = std::make_unique<BounceColumns>(1); // to tell emission that is seen directly
-    kernels_.emission.render(chains_, {.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .samples = measured_samples}, scratch);
+    kernels_.emission.trace_chains(chains_, {.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .samples = measured_samples}, scratch);
     pixel.rays = double(scratch.camera_rays + scratch.bounce_rays - before) / measured_samples;
     const RadianceColumns& seen = scratch.bounces->after[0];
     for (int k = 0; k < measured_samples; ++k) {
@@ -245,26 +219,33 @@ void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
         pixel.squares += l * l;
         pixel.low = std::min(pixel.low, l);
         pixel.high = std::max(pixel.high, l);
-        const Vec3d behind{scratch.r[k] - seen.r[k], scratch.g[k] - seen.g[k], scratch.b[k] - seen.b[k]};
-        if (const double met = luminance(behind); met > 0 && std::isfinite(met)) pixel.met.push_back({met, behind});
+        const double path_squares = l > 0 ? std::max(l * l, scratch.chains->path_squares[k]) : 0;
+        pixel.path_squares += path_squares;
+        pixel.path_high = std::max(pixel.path_high, path_squares);
+        const double direct = luminance(Vec3d{seen.r[k], seen.g[k], seen.b[k]}), behind = path_squares - direct * direct;
+        const Vec3d light{scratch.r[k] - seen.r[k], scratch.g[k] - seen.g[k], scratch.b[k] - seen.b[k]};
+        if (const double met = luminance(light); met > 0 && std::isfinite(behind) && behind > 0)
+            pixel.met.push_back({met, behind / met, met * met / behind, light});
     }
     scratch.bounces.reset();
 }
 
 // Once all are measured.
 void Pilot::estimate(MeasuredPixel& pixel) const {
-    double low = pixel.low, high = pixel.high;
+    double low = pixel.low, high = pixel.high, path_high = pixel.path_high;
     for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
         for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
             if (const MeasuredPixel* near = measured_at(x, y)) {
                 low = std::min(low, near->low);
                 high = std::max(high, near->high);
+                path_high = std::max(path_high, near->path_high);
             }
     const double other = other_light(pixel.x, pixel.y), n = measured_samples + 2, mean = (pixel.sum + low + high) / n;
     pixel.mean = mean + other;
-    if (low == high) return;
+    if (path_high == 0) return;
     pixel.variance = std::max(0.0, (pixel.squares + low * low + high * high) / n - mean * mean);
-    pixel.cancelled = 2 * other / (high - low);
+    pixel.path_variance = std::max(pixel.variance, (pixel.path_squares + low * low + path_high) / n - mean * mean);
+    pixel.cancelled = 2 * mean * other;
 }
 
 // Sightings that the samples of the measured pixels do not explain, by octave: as far as their rate is significantly larger than that of
@@ -275,7 +256,7 @@ std::vector<SmallHighlights::Band> Pilot::unmeasured(const Sightings& sightings)
     std::array<double, octaves> squares{}, met{};
     for (const Sighting& s : sightings.all) squares[SmallHighlights::octave_of(s.luminance)] += s.band.rate * s.band.rate;
     for (const MeasuredPixel& pixel : measured_)
-        for (const auto& [luminance, light] : pixel.met) met[SmallHighlights::octave_of(luminance)] += share_of_sample();
+        for (const MetLight& m : pixel.met) met[SmallHighlights::octave_of(m.path_luminance)] += share_of_sample() * m.path_rate;
     std::vector<SmallHighlights::Band> result(octaves);
     for (size_t k = 0; k < octaves; ++k) {
         const SmallHighlights::Band& band = sighted.bands[k];
@@ -291,55 +272,66 @@ double Pilot::unexplained_variance(const Sightings& sightings) const {
     double variance = 0;
     for (const Sighting& s : sightings.all) variance += s.band.rate * s.luminance * s.luminance;
     for (const MeasuredPixel& pixel : measured_)
-        for (const auto& [luminance, light] : pixel.met) variance -= share_of_sample() * luminance * luminance;
+        for (const MetLight& m : pixel.met) variance -= share_of_sample() * m.luminance * m.path_luminance;
     return std::max(0.0, variance);
 }
 
-// Of the image if no measured pixel takes more samples. Unexplained highlights are taken to lie in light like that of the measured.
-Noise Pilot::noise_with_highlights(double unexplained) const {
-    double variance = 0, relative = 0;
-    for (const MeasuredPixel& pixel : measured_) {
-        variance += pixel.variance;
-        relative += pixel.variance / pixel.scale();
-    }
-    const double share = 1 / double(place_.size()), all = share + (variance > 0 ? unexplained / variance : 0);
-    return {other_noise_.mse + share * variance + unexplained, other_noise_.relmse + relative * all, other_noise_.work};
+// Of the image if no pixel takes more samples.
+ImageNoise Pilot::noise_with_highlights(double unexplained) const {
+    double highlights = unexplained;
+    for (const MeasuredPixel& pixel : measured_) highlights += pixel.path_variance / double(place_.size());
+    return {other_noise_.mse + highlights, other_noise_.relmse + highlights * relative_to_variance(measured_), other_noise_.work};
 }
 
-// More samples of the emission in a pixel.
-struct Step {
-    MeasuredPixel* pixel = nullptr;
-    int samples = 0;
-    double gain = 0, relative_gain = 0, work = 0; // of the image
-};
-
-// Steps by what they gain for their work, as far as mse x relmse x work^2 is smallest. Each may pay only with those after it: half of the
-// highlights leave half of the noise.
-void Pilot::choose_samples(const Noise& before) {
+// Variances of the cells of the sightings, each as a mean over the cells around it: few samples look for the lamps of one. Their sum is at
+// most what the measured pixels leave unexplained.
+void Pilot::measure_cells(const Sightings& sightings, double unexplained) {
+    const size_t count = sightings.cells.size();
     const double share = 1 / double(place_.size());
-    std::vector<Step> steps;
-    for (MeasuredPixel& pixel : measured_) {
-        double left = pixel.variance;
-        for (const int samples : {highlight_samples, bright_highlight_samples}) {
-            const double next = pixel.variance_with(samples), gain = (left - next) * share;
-            const int added = samples == highlight_samples ? samples + 1 : samples - highlight_samples;
-            if (!(gain > 0)) break;
-            steps.push_back({&pixel, samples, gain, gain / pixel.scale(), added * pixel.rays * share});
-            left = next;
-        }
+    std::vector<FaintCell> own(count);
+    for (const Sighting& s : sightings.all) {
+        FaintCell& cell = own[s.cell];
+        const double squares = s.band.rate * s.luminance * s.luminance;
+        cell.path_variance += squares;
+        cell.variance += squares * s.share;
     }
-    const auto worth = [&](const Step& s) { return (s.gain / before.mse + s.relative_gain / before.relmse) / s.work; };
-    std::ranges::stable_sort(steps, std::ranges::greater{}, worth);
-    Noise now = before;
-    double best = now.cost();
-    size_t taken = 0;
-    for (size_t k = 0; k < steps.size(); ++k) {
-        now.mse -= steps[k].gain;
-        now.relmse -= steps[k].relative_gain;
-        now.work += steps[k].work;
-        if (now.cost() < best) best = now.cost(), taken = k + 1;
+    std::map<std::pair<int, int>, size_t> at;
+    for (size_t k = 0; k < count; ++k) {
+        const PixelRect& in = sightings.cells[k];
+        at[{in.x0 / sightings.side, in.y0 / sightings.side}] = k;
+        own[k].pixels = double(in.x1 - in.x0) * double(in.y1 - in.y0);
     }
-    for (size_t k = 0; k < taken; ++k) steps[k].pixel->samples = std::max(steps[k].pixel->samples, steps[k].samples);
+    cells_.assign(count, {});
+    double sum = 0;
+    for (const auto& [place, k] : at) {
+        FaintCell& cell = cells_[k];
+        double pixels = 0;
+        for (int y = place.second - 1; y <= place.second + 1; ++y)
+            for (int x = place.first - 1; x <= place.first + 1; ++x)
+                if (const auto near = at.find({x, y}); near != at.end()) {
+                    const FaintCell& of = own[near->second];
+                    cell.path_variance += of.path_variance;
+                    cell.variance += of.variance;
+                    pixels += of.pixels;
+                }
+        for (double* of : {&cell.path_variance, &cell.variance}) *of *= own[k].pixels / pixels;
+        const PixelRect& in = sightings.cells[k];
+        cell.pixels = own[k].pixels;
+        cell.rays = sightings.rays;
+        for (int y = in.y0; y < in.y1; ++y)
+            for (int x = in.x0; x < in.x1; ++x)
+                if (const MeasuredPixel* pixel = measured_at(x, y)) {
+                    cell.path_variance -= share * pixel->path_variance;
+                    cell.variance -= share * pixel->variance;
+                    --cell.pixels;
+                }
+        sum += std::max(0.0, cell.path_variance);
+    }
+    for (FaintCell& cell : cells_) {
+        const double part = sum > unexplained ? unexplained / sum : 1;
+        cell.path_variance = std::max(0.0, cell.path_variance) * part;
+        cell.variance = std::clamp(cell.variance * part, 0.0, cell.path_variance);
+    }
 }
 
 bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
@@ -348,20 +340,43 @@ bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
                            [&](int64_t i, unsigned worker) { measure(measured_[size_t(i)], *scratch_[worker]); }))
         return false;
     for (MeasuredPixel& pixel : measured_) estimate(pixel);
-    choose_samples(noise_with_highlights(unexplained_variance(sightings)));
-    const std::vector<SmallHighlights::Band> ordinary = unmeasured(sightings);
+    const double unexplained = unexplained_variance(sightings);
+    measure_cells(sightings, unexplained);
+    choose_highlight_samples(measured_, cells_, double(place_.size()), noise_with_highlights(unexplained));
     const double share = share_of_sample();
     for (const MeasuredPixel& pixel : measured_) {
         if (pixel.samples > 0) found.pixels.add(pixel.x, pixel.y, pixel.samples);
-        for (const auto& [luminance, light] : pixel.met)
-            found.highlights.add(luminance, {share, light * share}, std::max(pixel.samples, 1));
+        for (const MetLight& m : pixel.met)
+            if (pixel.samples > 0)
+                found.highlights.add(m.luminance, {share, m.light * share}, pixel.samples);
+            else
+                found.highlights.add(m.path_luminance, {share * m.path_rate, m.light * share});
     }
-    for (size_t k = 0; k < ordinary.size(); ++k) {
-        SmallHighlights::Band& band = found.highlights.bands[k];
-        band.rate += ordinary[k].rate;
-        band.sum = band.sum + ordinary[k].sum;
+    for (size_t k = 0; k < cells_.size(); ++k) {
+        if (!cells_[k].taken) continue;
+        const PixelRect& in = sightings.cells[k];
+        for (int y = in.y0; y < in.y1; ++y)
+            for (int x = in.x0; x < in.x1; ++x)
+                if (!measured_at(x, y)) found.pixels.add(x, y, faint_highlight_samples);
     }
+    add_unmeasured(sightings, found.highlights);
     return true;
+}
+
+// Sightings beyond what the measured pixels explain, by the samples that their cells take.
+void Pilot::add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const {
+    const std::vector<SmallHighlights::Band> left = unmeasured(sightings);
+    const SmallHighlights sighted = highlights_of(sightings);
+    for (const Sighting& s : sightings.all) {
+        const size_t octave = SmallHighlights::octave_of(s.luminance);
+        if (!(left[octave].rate > 0)) continue;
+        const double part = left[octave].rate / sighted.bands[octave].rate;
+        const SmallHighlights::Band band{s.band.rate * part, s.band.sum * part};
+        if (cells_[s.cell].taken)
+            highlights.add(s.luminance * s.share, {band.rate / s.share, band.sum}, faint_highlight_samples);
+        else
+            highlights.add(s.luminance, band);
+    }
 }
 
 std::optional<EdgesFound> Pilot::find(const Sightings& sightings) {

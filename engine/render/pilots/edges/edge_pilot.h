@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "render/diagnostics/highlight_pilot.h"
 #include "render/error/small_highlights.h"
 #include "render/film/edge_pixels.h"
 #include "render/kernels/kernel.h"
+#include "render/pilots/edges/highlight_pilot.h"
 
 #include <functional>
 #include <memory>
@@ -41,16 +41,19 @@ struct EdgeKernels {
 // fewer pixels are taken. Pixels whose neighbours differ enough in emission, by E, then take some samples each for V. Work is counted in
 // rays, not in time: the result is the same for any number of threads and any instruction set.
 //
-// Highlights of lamps in mirrors and glass are edges, too, but hardly any sample of one per pixel meets them. Pixels near those that
+// Highlights of lamps in mirrors and glass are edges, too, but hardly any sample of one per pixel meets them. Samples of the emission
+// follow all chains of delta lobes (delta_chains.h), which also tell the variance of paths, that select one. Pixels near those that
 // highlight_pilot.h has sighted, at most one pixel in 64 and the nearest to a lamp first, are measured by 128 samples of the emission each.
-// A pixel beside others that met a highlight counts as if one more sample had. Steps to 64 and to 512 samples of the emission for each
-// are sorted by what they gain for their rays, and taken as far as MSE x relMSE x work^2 is smallest. The coarse image meets hardly any
-// highlight, so the noise of the image is here the sum of that of its light other than emission, that of the measured pixels, and that of
-// highlights sighted beyond those that the measured samples met: where most of the noise is of these, as in glass with many faint images
-// of a lamp, few steps pay.
+// A pixel beside others that met a highlight counts as if one more sample had. In the other pixels of a cell of sightings, these estimate
+// both variances. highlight_samples.h chooses how many samples of the emission each takes. The coarse image meets hardly any highlight, so
+// the noise of the image is here the sum of that of its light other than emission, that of the measured pixels, and that of highlights
+// sighted beyond those that the measured samples met. With the mean of the emission, e, the gain of M samples of variance V_c each over the
+// V of a path is
 //
-// `highlights` of the result: those that the samples of the measured pixels met, and in ordinary pixels what was sighted beyond them by
-// more than two standard errors.
+//     gain = V - V_c / M - 2 E[e] R.
+//
+// `highlights` of the result: those that the samples of the measured pixels met, and what was sighted beyond them by more than two standard
+// errors.
 //
 // `context` as for the film at full resolution, except its seed and groups. `paths`: the kernel of samples; `emission`: one with all
 // features that they need but light paths. `longest_chain`: 0 where smooth surfaces have no smooth edges; then `sightings` must be empty.

@@ -1,4 +1,4 @@
-#include "render/pilots/edge_choice.h"
+#include "render/pilots/edges/edge_choice.h"
 
 #include "render/compile/render_scene.h"
 
@@ -46,6 +46,7 @@ FeatureUse EdgeChoice::report() const {
         add("at edges of visible light sources", edge_samples, "camera rays");
         add("with highlights of lamps in smooth surfaces", highlight_samples, "paths");
         add("with bright highlights", bright_highlight_samples, "paths");
+        add("with faint images of lamps", faint_highlight_samples, "path by all lobes");
         use.why = "pilot: " + pixels;
     }
     return use;

@@ -1,6 +1,6 @@
 // The pilot of small highlights: its estimate against the geometry of a mirror, and that it makes errors unknown where both halves of the
 // samples miss a highlight.
-#include "render/diagnostics/highlight_pilot.h"
+#include "render/pilots/edges/highlight_pilot.h"
 
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/scenes.h"
@@ -30,7 +30,7 @@ SmallHighlights found_in(const Scene& scene, const RenderSettings& settings, uns
     const KernelContext context{&compiled.tables(), &compiled.accel(), kernel_settings(settings, settings.width, settings.height)};
     const Workers workers(threads);
     std::vector<std::unique_ptr<TileScratch>> scratch(workers.threads());
-    return highlights_of(find_small_highlights(context, workers, scratch, {}).value());
+    return highlights_of(find_small_highlights(context, choose_kernel(compiled.features()), workers, scratch, {}).value());
 }
 
 double total_rate(const SmallHighlights& found) {
@@ -135,7 +135,7 @@ TEST(SmallHighlights, AreHardlyMetByFewSamplesOnly) {
     EXPECT_EQ(&lamp.of(400), &lamp.of(300)); // the octave from 256 to 512
     EXPECT_NE(&lamp.of(400), &lamp.of(200));
     EXPECT_EQ(&lamp.of(0), &lamp.bands.front());
-    EXPECT_EQ(&lamp.of(1e300, bright_highlight_samples), &lamp.bands.back());
+    EXPECT_EQ(&lamp.of(1e300, faint_highlight_samples), &lamp.bands.back());
 }
 
 TEST(SmallHighlights, AreMetMoreOftenInPixelsThatTakeMoreSamplesOfThem) {
