@@ -57,7 +57,7 @@ public:
 private:
     static constexpr double largest_cost = 0.75; // a pilot errs, walks take more time than their rays, and the kernel is slower
     // Of a typical tile: elsewhere most of the variance without is that of paths so rare that no image of usual length has any.
-    static constexpr double largest_typical_cost = 2.0 / 3;
+    static constexpr double largest_typical_cost = 0.9;
 
     static constexpr double largest_vertex_cost = 0.9;
 
