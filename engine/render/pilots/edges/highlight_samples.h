@@ -60,7 +60,8 @@ struct FaintCell {
 double relative_to_variance(std::span<const MeasuredPixel> measured);
 
 // Sets `samples` of the pixels and `taken` of the cells. Steps to more samples are sorted by what they gain for their work, and taken as
-// far as mse x relmse x work^2 is smallest: each may pay only with those after it, as half of the highlights leave half of the noise.
+// far as mse x relmse x work^2 is smallest and work grows by half at most: each may pay only with those after it, as half of the highlights
+// leave half of the noise.
 // `pixels`: of the image. `before`: its noise if no pixel takes more samples.
 void choose_highlight_samples(std::vector<MeasuredPixel>& measured, std::vector<FaintCell>& cells, double pixels, const ImageNoise& before);
 
