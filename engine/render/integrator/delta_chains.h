@@ -129,16 +129,14 @@ template <Features S, class F> ChainLobes<F> chain_lobes(const Path<F>& path, co
 }
 
 // The chain behind a vertex by one of its lobes.
-template <Features S, class F> Path<F> chain_behind(const Path<F>& path, const ShadedHit<F>& p, const ScatterSetup<F>& setup,
+template <Features S, class F> Path<F> chain_behind(const Path<F>& path, const ShadingPoint<F>& p, const ScatterSetup<F>& setup,
                                                     const ChainLobes<F>& lobes, size_t l, const F& cone, int bounce) {
-    const ShadingPoint<F> point{p.surface,  p.material.bsdf, p.shading,    p.bsdf,     p.beta,
-                                p.scatters, Mask<F>(false),  p.side.solid, p.dispersed};
     IndirectSample<F> s;
     s.bsdf = {lobes.all[l].wi, lobes.all[l].value, F(1.f), Mask<F>(true), lobes.all[l].valid};
     s.wi = lobes.wi[l];
     s.outward = lobes.outward[l];
     Path<F> next = path;
-    next_path<S, F>(path, point, setup, s, lobes.beta[l], cone, next);
+    next_path<S, F>(path, p, setup, s, lobes.beta[l], cone, next);
     // Lobes have random numbers of their own, but a wavelength belongs to its numbers.
     if (l != delta_transmission) {
         const UInt<F> own = path.key ^ pcg_hash((uint32_t(bounce) * uint32_t(num_delta_lobes) + uint32_t(l)) ^ chain_key);
@@ -201,8 +199,9 @@ template <Features S, class F> void keep_arrived(const KernelContext& context, T
 }
 
 // The light that the chains of a register's lanes have met.
-template <Features S, class F> void add_chain_light(const KernelContext& context, TileScratch& scratch, const PathQueue& now, int k,
-                                                    const Path<F>& path, const F& share, int bounce, const Mask<F>& active, Step<F>& step) {
+template <Features S, class F> void add_met_emission(const KernelContext& context, TileScratch& scratch, const PathQueue& now, int k,
+                                                     const Path<F>& path, const F& share, int bounce, const Mask<F>& active,
+                                                     Step<F>& step) {
     const Mask<F> emits = step.emits;
     const F light = luminance(step.emitted), squares = light * light / share;
     for_each_lane(bits(emits), [&](int i) { scratch.chains->path_squares[lane(path.slot, i)] += double(lane(squares, i)); });
@@ -232,7 +231,7 @@ shade_chain(const KernelContext& context, TileScratch& scratch, const PathQueue&
     const ShadedHit<F> p = shade_hit<S, F>(scene, settings.energy, path, hit, lanes.surface, width_of_filter);
     hit_emitter<S, F>(scene, settings.mis, path, hit, p.surface, p.material, p.side, p.arriving, lanes.surface, step);
     hit_unlit<S, F>(p.material, p.arriving, lanes.surface, step);
-    if (!chains.sights) add_chain_light<S, F>(context, scratch, now, k, path, share, bounce, active, step);
+    if (!chains.sights) add_met_emission<S, F>(context, scratch, now, k, path, share, bounce, active, step);
     if (bounce >= settings.max_bounces) return;
     if (!any(p.scatters)) {
         for_each_lane(bits(active), [&](int i) { --chains.alive[lane(path.slot, i)]; });
@@ -252,7 +251,7 @@ shade_chain(const KernelContext& context, TileScratch& scratch, const PathQueue&
     std::array<unsigned, num_delta_lobes> appended{};
     for (size_t l = 0; l < num_delta_lobes; ++l) {
         if (!any(lobes.lanes[l])) continue;
-        const Path<F> behind = chain_behind<S, F>(path, p, setup, lobes, l, cone, bounce);
+        const Path<F> behind = chain_behind<S, F>(path, point, setup, lobes, l, cone, bounce);
         const Mask<F> finite = is_finite(F(behind.beta.x + behind.beta.y + behind.beta.z)), continues = lobes.lanes[l] && finite;
         add_light<F>(scratch, now.slot + k, behind.beta, lobes.lanes[l] && !finite); // the film drops and counts the sample
         appended[l] = bits(continues);
