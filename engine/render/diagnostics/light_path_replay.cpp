@@ -30,18 +30,13 @@ ReplayedLightPath replay_light_path(const KernelContext& context, const EmittedP
     begin_light_paths(columns, *now);
     int queue = 0;
     for (int bounce = 0; now->size > 0 && bounce < context.settings.max_bounces && bounce <= max_path_length; ++bounce) {
-        const RayArrays rays{now->ox, now->oy, now->oz, now->dx, now->dy, now->dz, nullptr, nullptr, other_ray_mask};
-        HitColumns& h = scratch.hits;
-        trace_closest<float>(*context.accel, rays, 1, false, HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
-        ReplayedLightVertex vertex{load_path<s, float>(*now, 0), load_hit<float>(h, 0), {0, 0, 0}};
+        trace_light_rays<s, float>(context, scratch, *now, *next, bounce);
+        ReplayedLightVertex vertex{load_path<s, float>(*now, 0), load_hit<float>(scratch.hits, 0), {0, 0, 0}};
         queue = 1 - queue;
         shade_light_paths<s, float>(context, scratch, *now, *next, queue, bounce);
         if (scratch.shadows.size > 0) {
-            RayArrays shadows = shadow_rays_of(context, scratch.shadows);
-            shadows.mask = camera_ray_mask;
-            trace_any<float>(*context.accel, shadows, scratch.shadows.size, false, scratch.blocked);
             const size_t first = columns.splats.size();
-            add_splats(context, bounce, scratch);
+            add_splats<s, float>(context, scratch, bounce);
             vertex.light = light_of(columns.splats, pixel, first);
         }
         replayed.light = replayed.light + vertex.light;

@@ -5,6 +5,7 @@
 #include "render/integrator/path_queues.h"
 #include "render/integrator/scatter_stages.h"
 #include "render/integrator/splat_pixel.h"
+#include "render/integrator/thin_transmission.h"
 #include "shading/adjoint.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ enum LightVertexDimension : uint32_t { light_bsdf_dimension, light_choice_dimens
 
 // Paths leave their lights side by side, and so they meet the first surfaces.
 constexpr int coherent_light_bounces = 3;
+inline PathRays light_path_rays(int bounce) { return {bounce, false, bounce < coherent_light_bounces}; }
 
 // The camera as a point `from` sees it.
 template <class F> struct CameraConnection {
@@ -66,17 +68,21 @@ template <Features S, class F> CameraConnection<F> connect_camera(const CameraRe
 // A vertex of a light path: `side.wo` is the direction towards the vertex before.
 template <class F> struct LightPathVertex : ShadedHit<F> {
     F cosine;                                 // between wo and the geometric normal, > 0
+    F scatter_share = F(1.f);                 // share_beside_straight()
     F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
 };
 // Where the path meets a surface, in the lanes of `met`.
 template <Features S, class F> [[gnu::always_inline]] inline LightPathVertex<F>
 light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met) {
-    // Textures are filtered as the camera sees them.
+    // Textures are filtered as the camera sees them, but for those of panes (pane_width).
     const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
     const float cone = camera_cone(scene.camera, settings);
-    const F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
+    F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
+    if constexpr (S.has(Feature::transmission) && S.has(Feature::textures))
+        if (scene.panes) footprint = select(is_pane<S, F>(scene, hit, met), F(0.f), footprint);
     LightPathVertex<F> v{shade_hit<S, F>(scene, settings.energy, path, hit, met, footprint), F(0.f)};
     v.cosine = clamped_cosine<F>(v.shading.ng, v.side.wo);
+    v.scatter_share = share_beside_straight<S, F>(scene, v.material, v.bsdf, v.shading.wo);
     return v;
 }
 // Weight of a sample of a delta lobe: what it leaves of the light that passes it. `cosine`: between wi and the geometric normal; `choice`:
@@ -86,19 +92,24 @@ template <Features S, class F> [[gnu::always_inline]] inline Vec<F> delta_light_
     return s.weight * (cosine / v.cosine * delta_adjoint<S, F>(v.bsdf, v.material.bsdf.layers, v.shading.wo, s.wi, choice));
 }
 
+// The lights of paths k, k + 1, ... before their first vertex.
+template <class F> Int<F> emitters(const LightPathColumns& columns, int k, const Mask<F>& lanes) {
+    alignas(64) int32_t light[width<F>]{};
+    for_each_lane(bits(lanes), [&](int i) { light[i] = columns.emitted[size_t(k + i)].light; });
+    return load<Int<F>>(light);
+}
+
 // Density with which NEE at the first vertex samples the point of the light, over projected solid angle.
 template <Features S, class F>
-F nee_density(const SceneTables& scene, const std::vector<EmittedPath>& emitted, int k, const LightPathVertex<F>& v, const Mask<F>& lanes) {
+F nee_density(const SceneTables& scene, const LightPathColumns& columns, int k, const LightPathVertex<F>& v, const Mask<F>& lanes) {
     alignas(64) float x[width<F>]{}, y[width<F>]{}, z[width<F>]{}, nx[width<F>]{}, ny[width<F>]{}, nz[width<F>]{};
-    alignas(64) int32_t light[width<F>]{};
     for_each_lane(bits(lanes), [&](int i) {
-        const EmittedPath& e = emitted[size_t(k + i)];
+        const EmittedPath& e = columns.emitted[size_t(k + i)];
         x[i] = e.light_position.x, y[i] = e.light_position.y, z[i] = e.light_position.z;
         nx[i] = e.light_normal.x, ny[i] = e.light_normal.y, nz[i] = e.light_normal.z;
-        light[i] = e.light;
     });
     const Vec<F> position{load<F>(x), load<F>(y), load<F>(z)}, normal{load<F>(nx), load<F>(ny), load<F>(nz)};
-    const auto at = emission_point<S, F>(scene, load<Int<F>>(light), position, normal, v.side.wo, lanes);
+    const auto at = emission_point<S, F>(scene, emitters<F>(columns, k, lanes), position, normal, v.side.wo, lanes);
     Receiver<F> to{v.surface.position, v.shading.ns};
     to.normal = select<F>(v.material.bsdf.transmission > F(0.f), splat<F>(0.f), to.normal);
     to.normal = select<F>(v.material.bsdf.layers.diffuse_transmission > F(0.f), splat<F>(0.f), to.normal);
@@ -123,7 +134,9 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     const ViewedPoint<F> view =
         view_point<S, F>(scene, context.settings.energy, v.surface, v.material, v.bsdf, c.to, v.side.wo, true, seen_by_camera);
     const F per_path = c.density * clamped_cosine<F>(v.shading.ng, c.to) * (1.f / scene.emission.paths);
-    const Vec<F> value = v.beta * view.value.f_cos * (per_path / v.cosine);
+    Vec<F> value = v.beta * view.value.f_cos * (per_path / v.cosine);
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) value = value * (1.f / max(v.scatter_share, F(0x1p-24f)));
     const F seen = view.pdf / v.cosine;
     const F hit = v.hit_ratio * seen * per_path, nee = (bounce == 0 ? v.nee_ratio : v.nee_ratio * seen) * per_path;
     const F weight = 1.f / (1.f + hit * hit + nee * nee);
@@ -134,12 +147,12 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     step.shadow_distance = c.distance * (1.f - 4e-7f);
     step.direct = value * weight;
     LightPathColumns& columns = *scratch.light_paths;
-    if (columns.measures) {
-        compress(columns.amount + scratch.shadows.size, luminance(value), bits(connects));
-        compress(columns.others + scratch.shadows.size, sqrt(hit * hit + nee * nee), bits(connects));
-    }
+    if (columns.measures) compress(columns.others + scratch.shadows.size, min(F(sqrt(hit * hit + nee * nee)), F(1e18f)), bits(connects));
     compress(columns.x + scratch.shadows.size, c.x, bits(connects));
     compress(columns.y + scratch.shadows.size, c.y, bits(connects));
+    if (scene.blends)
+        compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(path.key, path.index, uint32_t(2 * bounce + 1)),
+                 bits(connects));
     append<F>(scratch.shadows, step, path.slot, connects);
 }
 
@@ -151,7 +164,10 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_light_vertex_dimension + dimensions_per_light_vertex * uint32_t(bounce);
     const Pair<F> direction = sampler.pair(dimension + light_bsdf_dimension), choice = sampler.pair(dimension + light_choice_dimension);
-    const BsdfSample<F> s = sample<S, F>(v.bsdf, v.shading.wo, direction.x(), direction.y(), choice.x());
+    F lobe = choice.x();
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) lobe = lobe * v.scatter_share;
+    const BsdfSample<F> s = sample_beside_straight<S, F>(*context.scene, v.bsdf, v.shading.wo, v.material.pane, lobe, direction);
     const Vec<F> wi = normalize(v.shading.frame.to_world(s.wi));
     const Mask<F> outward = dot(wi, v.shading.ng) > F(0.f);
     const F cosine = clamped_cosine<F>(v.shading.ng, wi);
@@ -169,7 +185,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
         hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
         nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
     }
-    beta = select<F>(dense, beta, delta_light_weight<S, F>(v, s, cosine, choice.x())) * v.beta;
+    beta = select<F>(dense, beta, delta_light_weight<S, F>(v, s, cosine, lobe)) * v.beta;
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
@@ -207,6 +223,9 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         LightPathVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met);
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(v.bsdf);
+            if constexpr (S.has(Feature::links))
+                if (scene.links.lit_sets)
+                    v.scatters = v.scatters && is_lit<F>(scene.links, emitters<F>(columns, k, met), v.surface.part, met);
             if (!any(v.scatters)) continue;
             alignas(64) float densities[width<F>]{}, hits[width<F>]{};
             for_each_lane(bits(v.scatters), [&](int i) {
@@ -216,7 +235,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
             });
             v.hit_ratio = load<F>(hits);
             if (const Mask<F> lit = v.scatters && !is_delta_only<F>(v.bsdf); any(lit))
-                v.nee_ratio = select(lit, load<F>(densities) * nee_density<S, F>(scene, columns.emitted, k, v, lit), F(0.f));
+                v.nee_ratio = select(lit, load<F>(densities) * nee_density<S, F>(scene, columns, k, v, lit), F(0.f));
         } else {
             v.hit_ratio = load<F>(columns.hit_ratio[1 - queue] + k);
             v.nee_ratio = load<F>(columns.nee_ratio[1 - queue] + k);
@@ -224,6 +243,20 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         connect_vertex<S, F>(context, scratch, path, v, bounce);
         if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, scratch, next, queue);
     }
+}
+
+// Traces the rays of light paths. In scenes with panes, overwrites `rest`.
+template <Features S, class F>
+void trace_light_rays(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
+    const PathRays rays = light_path_rays(bounce);
+    trace_rays<F>(context, scratch.random, now, rays, scratch.hits);
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, rays);
+}
+
+// Adds the splats of the connections that reach the camera.
+template <Features S, class F> void add_splats(const KernelContext& context, TileScratch& scratch, int bounce) {
+    connect_rays<S, F>(context, scratch, Connects::to_camera, false, [&](int k) { add_splat(context, bounce, scratch, k); });
 }
 
 // Light paths of the tile: see LightPathColumns.
@@ -239,19 +272,11 @@ template <Features S, class F> void trace_light_paths(const KernelContext& conte
             break;
         }
         scratch.bounce_rays += now->size;
-        const RayArrays path_rays{now->ox, now->oy, now->oz, now->dx, now->dy, now->dz, nullptr, nullptr, other_ray_mask};
-        HitColumns& h = scratch.hits;
-        trace_closest<F>(*context.accel, path_rays, now->size, bounce < coherent_light_bounces,
-                         HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        trace_light_rays<S, F>(context, scratch, *now, *next, bounce);
         queue = 1 - queue;
         shade_light_paths<S, F>(context, scratch, *now, *next, queue, bounce);
         scratch.shadow_rays += scratch.shadows.size;
-        if (scratch.shadows.size > 0) {
-            RayArrays rays = shadow_rays_of(context, scratch.shadows);
-            rays.mask = camera_ray_mask;
-            trace_any<F>(*context.accel, rays, scratch.shadows.size, false, scratch.blocked);
-            add_splats(context, bounce, scratch);
-        }
+        if (scratch.shadows.size > 0) add_splats<S, F>(context, scratch, bounce);
         std::swap(now, next);
     }
 }

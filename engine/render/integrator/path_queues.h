@@ -97,20 +97,28 @@ template <class F> Hit<F> load_hit(const HitColumns& h, int k) {
 // The same for rays of path samples that are stratified (RayArrays::index).
 template <class F> UInt<F> opacity_key(const UInt<F>& key, uint32_t salt) { return key ^ pcg_hash(salt * 0x9e3779b9u + 1u); }
 
+// The rays of a queue of paths.
+struct PathRays {
+    int bounce;
+    bool from_camera; // else from lights
+    bool coherent;    // side by side
+    uint32_t mask() const { return from_camera && bounce == 0 ? camera_ray_mask : other_ray_mask; }
+};
+inline PathRays camera_path_rays(int bounce) { return {bounce, true, bounce == 0}; }
+
 // Closest hits of the queue's path rays. `random` is written if some surface is blended, and `background_share` if it is set.
-template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, int bounce, HitColumns& h,
-                                   float* background_share = nullptr) {
+template <class F> void trace_rays(const KernelContext& context, Column<uint32_t>& random, const PathQueue& q, const PathRays& kind,
+                                   HitColumns& h, float* background_share = nullptr) {
     const bool blends = context.scene->blends;
     if (blends)
-        for (int k = 0; k < q.size; k += width<F>) store(random + k, opacity_key<F>(load<UInt<F>>(q.key + k), uint32_t(2 * bounce)));
-    RayArrays rays{
-        q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? random.data : nullptr, bounce == 0 ? camera_ray_mask : other_ray_mask};
+        for (int k = 0; k < q.size; k += width<F>) store(random + k, opacity_key<F>(load<UInt<F>>(q.key + k), uint32_t(2 * kind.bounce)));
+    RayArrays rays{q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, nullptr, blends ? random.data : nullptr, kind.mask()};
     if (blends) rays.index = q.index;
     const HitArrays hits{h.t, h.u, h.v, h.geometry, h.instance, h.triangle};
     if (background_share)
         context.accel->intersect_blended(rays, q.size, hits, background_share);
     else
-        trace_closest<F>(*context.accel, rays, q.size, bounce == 0, hits);
+        trace_closest<F>(*context.accel, rays, q.size, kind.coherent, hits);
 }
 
 inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue& q) {
@@ -119,6 +127,15 @@ inline RayArrays shadow_rays_of(const KernelContext& context, const ShadowQueue&
             q.dy,           q.dz,
             q.distance,     context.scene->blends ? q.random.data : nullptr,
             other_ray_mask, context.scene->links.lit_sets ? q.mask.data : nullptr};
+}
+// Where the rays of a shadow queue lead. Objects that the camera does not see do not hide anything from it.
+enum class Connects { to_lights, to_camera };
+inline RayArrays connection_rays(const KernelContext& context, const ShadowQueue& q, Connects to) {
+    RayArrays rays = shadow_rays_of(context, q);
+    if (to == Connects::to_lights) return rays;
+    rays.mask = camera_ray_mask;
+    rays.masks = nullptr;
+    return rays;
 }
 
 // Density, 1/sr, of lobes that focus light: that of a diffuse lobe is at most 1 / pi.

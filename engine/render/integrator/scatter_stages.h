@@ -46,20 +46,36 @@ F adjoint_survival(const Roulette& r, const AdjointTables& adjoint, const Path<F
     return limited_survival<F>(r, max(F(least_adjoint_share * max_component(beta)), learned));
 }
 
+// The share of paths that do not pass a pane straight through: thin_transmission.h handles its straight lobe. 1 elsewhere.
+template <Features S, class F>
+F share_beside_straight(const SceneTables& scene, const MaterialPoint<F>& material, const Bsdf<F>& bsdf, const Vec<F>& wo) {
+    if constexpr (S.has(Feature::transmission))
+        if (scene.panes) return select(material.pane, 1.f - straight_transmission<S, F>(bsdf, wo).probability, F(1.f));
+    return F(1.f);
+}
+// Samples the others of its lobes. `lobe` selects one: less than that share, so that they keep their frequency.
+template <Features S, class F>
+[[gnu::always_inline]] inline BsdfSample<F> sample_beside_straight(const SceneTables& scene, const Bsdf<F>& bsdf, const Vec<F>& wo,
+                                                                   const Mask<F>& pane, const F& lobe, const Pair<F>& direction) {
+    BsdfSample<F> s = sample<S, F>(bsdf, wo, direction.x(), direction.y(), lobe);
+    if constexpr (S.has(Feature::transmission))
+        // rounding selected the straight lobe
+        if (scene.panes) s.valid = s.valid && !(pane && s.delta && (s.wi.z > F(0.f)) != (wo.z > F(0.f)));
+    return s;
+}
+
 // What sample_direct and sample_indirect share.
 template <class F> struct ScatterSetup {
-    Mask<F> pane;            // thin glass: its straight lobe is handled in thin_transmission.h
-    F scatter_share;         // of the paths that do not pass the pane straight through; 1 elsewhere
+    Mask<F> pane;            // thin glass
+    F scatter_share;         // share_beside_straight()
     bool guides;             // diffuse surfaces guide paths
     DirectionGuide<F> guide; // only if it has
     Receiver<F> receiver;
 };
 template <Features S, class F> [[gnu::always_inline]] inline ScatterSetup<F>
 scatter_setup(const SceneTables& scene, const MaterialPoint<F>& material, const ShadingPoint<F>& p) {
-    ScatterSetup<F> setup{material.pane, F(1.f), false, {}, {p.surface.position, p.shading.ns}};
-    if constexpr (S.has(Feature::transmission))
-        if (scene.panes)
-            setup.scatter_share = select(material.pane, 1.f - straight_transmission<S, F>(p.bsdf, p.shading.wo).probability, F(1.f));
+    ScatterSetup<F> setup{
+        material.pane, share_beside_straight<S, F>(scene, material, p.bsdf, p.shading.wo), false, {}, {p.surface.position, p.shading.ns}};
     // Kernels without specular lobes contain no code for caustic guiding.
     if constexpr (S.has(Feature::specular) || S.has(Feature::transmission)) {
         setup.guides = !scene.guides.empty();
@@ -160,12 +176,8 @@ template <Features S, class F>
                                                                 const ScatterSetup<F>& setup, const F& choice, const Pair<F>& direction) {
     F lobe = choice;
     if constexpr (S.has(Feature::transmission))
-        if (scene.panes) lobe = lobe * setup.scatter_share; // lobes other than the straight one keep their frequency
-    IndirectSample<F> s{sample<S, F>(p.bsdf, p.shading.wo, direction.x(), direction.y(), lobe), {}, F(1.f), {}, F(0.f)};
-    if constexpr (S.has(Feature::transmission))
-        // rounding selected the straight lobe
-        if (scene.panes)
-            s.bsdf.valid = s.bsdf.valid && !(setup.pane && s.bsdf.delta && (s.bsdf.wi.z > F(0.f)) != (p.shading.wo.z > F(0.f)));
+        if (scene.panes) lobe = lobe * setup.scatter_share;
+    IndirectSample<F> s{sample_beside_straight<S, F>(scene, p.bsdf, p.shading.wo, setup.pane, lobe, direction), {}, F(1.f), {}, F(0.f)};
     s.wi = p.shading.frame.to_world(s.bsdf.wi);
     if (setup.guides && any(setup.guide.share > F(0.f))) guide_indirect<F>(scene, p, setup.guide, choice, direction, s);
     s.outward = dot(s.wi, p.shading.ng) > F(0.f);

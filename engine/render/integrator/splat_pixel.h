@@ -35,27 +35,25 @@ inline SplatPixel splat_pixel(const FilterTable& filter, float position, float u
     return {first + chosen, sum};
 }
 
-// Adds the splats of the unoccluded connections of these vertices.
-inline void add_splats(const KernelContext& context, int bounce, TileScratch& scratch) {
+// Adds the splat of connection k of the shadow queue.
+inline void add_splat(const KernelContext& context, int bounce, TileScratch& scratch, int k) {
     const EstimatorSettings& settings = context.settings;
     const int32_t* groups = context.scene->groups.of_light;
     const ShadowQueue& q = scratch.shadows;
     LightPathColumns& columns = *scratch.light_paths;
+    const EmittedPath& emitted = columns.emitted[size_t(q.slot[k])];
     const int image_width = int(settings.width), image_height = int(settings.height);
-    for (int k = 0; k < q.size; ++k) {
-        if (scratch.blocked[k]) continue;
-        // Any random numbers that the path has not used.
-        const uint32_t random = pcg_hash(uint32_t(bounce) * 0x9e3779b9u ^ pcg_hash(columns.key ^ columns.emitted[size_t(q.slot[k])].index));
-        const SplatPixel x = splat_pixel(*settings.filter, columns.x[k], unit_float<float>(random));
-        const SplatPixel y = splat_pixel(*settings.filter, columns.y[k], unit_float<float>(pcg_hash(random)));
-        if (x.pixel < 0 || y.pixel < 0 || x.pixel >= image_width || y.pixel >= image_height || !(x.weight * y.weight > 0)) continue;
-        const float scale = luminance(columns.emitted[size_t(q.slot[k])].flux) * (x.weight * y.weight);
-        const int pixel = y.pixel * image_width + x.pixel;
-        const int32_t light = columns.emitted[size_t(q.slot[k])].light;
-        columns.splats.push_back(
-            {pixel, Vec3{q.r[k], q.g[k], q.b[k]} * scale, uint16_t(std::min(bounce + 1, 65535)), uint16_t(groups ? groups[light] : 0)});
-        if (columns.measures) columns.moments.push_back({pixel, columns.amount[k] * scale, columns.others[k]});
-    }
+    // Any random numbers that the path has not used.
+    const uint32_t random = pcg_hash(uint32_t(bounce) * 0x9e3779b9u ^ pcg_hash(columns.key ^ emitted.index));
+    const SplatPixel x = splat_pixel(*settings.filter, columns.x[k], unit_float<float>(random));
+    const SplatPixel y = splat_pixel(*settings.filter, columns.y[k], unit_float<float>(pcg_hash(random)));
+    if (x.pixel < 0 || y.pixel < 0 || x.pixel >= image_width || y.pixel >= image_height || !(x.weight * y.weight > 0)) return;
+    const int pixel = y.pixel * image_width + x.pixel;
+    const Vec3 radiance = Vec3{q.r[k], q.g[k], q.b[k]} * (luminance(emitted.flux) * (x.weight * y.weight));
+    columns.splats.push_back({pixel, radiance, uint16_t(std::min(bounce + 1, 65535)), uint16_t(groups ? groups[emitted.light] : 0)});
+    if (!columns.measures) return;
+    const float others = columns.others[k];
+    columns.moments.push_back({pixel, luminance(radiance) * (1 + others * others), others}); // undoes the MIS weight (connect_vertex)
 }
 
 // Appends an emitted path to the queue.

@@ -75,32 +75,39 @@ template <Features S, class F> Path<F> gather_path(const PathQueue& q, const Int
     p.index = gather(q.index.data, i);
     p.slot = gather(q.slot.data, i);
     if constexpr (S.has(Feature::links)) p.part = gather(q.part.data, i);
+    p.light_ratio = p.emission_ratio = F(0.f);
+    p.chain = Int<F>(0);
+    if constexpr (S.has(Feature::light_paths)) {
+        p.light_ratio = gather(q.light_ratio.data, i);
+        p.emission_ratio = gather(q.emission_ratio.data, i);
+        p.chain = gather(q.chain.data, i);
+    }
     return p;
 }
 
 // Continues those paths `index` of `now` that pass the pane they hit: their continued rays are appended to `rest`, with the path
 // index as slot and the distance so far as pdf. `hit`: t from the path's own origin.
 template <Features S, class F> void pass_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest,
-                                               const Int<F>& index, const Hit<F>& hit, int bounce, const Mask<F>& active) {
+                                               const Int<F>& index, const Hit<F>& hit, const PathRays& rays, const Mask<F>& active) {
     const SceneTables& scene = *context.scene;
     const Mask<F> pane = is_pane<S, F>(scene, hit, active);
     if (!any(pane)) return;
     const Path<F> path = gather_path<S, F>(now, index, pane);
     F cone = F(0.f);
-    if constexpr (S.has(Feature::textures)) cone = pane_width<F>(cone_width<F>(scene.camera, context.settings, path, hit.t), bounce);
+    if constexpr (S.has(Feature::textures))
+        if (rays.from_camera) cone = pane_width<F>(cone_width<F>(scene.camera, context.settings, path, hit.t), rays.bounce);
     const PanePoint<F> p = pane_at<S, F>(scene, context.settings.energy, path.ray.direction, hit, cone, pane);
 
     Column<int32_t>& passed = scratch.panes->passed;
     const Int<F> number = gather(passed.data, select(pane, index, Int<F>(0)));
     const Sampler<F> sampler{UInt<F>(path.key ^ pcg_hash(to_unsigned(number))), path.index};
-    const Mask<F> passes = pane && sampler.pair(first_pane_dimension + uint32_t(bounce)).x() < p.through.probability;
+    const Mask<F> passes = pane && sampler.pair(first_pane_dimension + uint32_t(rays.bounce)).x() < p.through.probability;
     if (!any(passes)) return;
 
     // Paths that do not pass get the pane's emission in scatter().
     const Mask<F> emits = passes && p.emits;
-    if (any(emits)) {
-        // Scenes with panes have no light paths.
-        const EmissionPlace<F> at{p.part, path.ray.origin, path.normal};
+    if (rays.from_camera && any(emits)) {
+        const EmissionPlace<F> at{p.part, p.position, p.ng};
         const EmissionHit<F> found = emission_hit<S, F>(scene, context.settings.mis, path, at, hit, p.facing, p.emission, emits);
         const Vec<F> light = path.beta * found.radiance * found.weight;
         for_each_lane(bits(emits), [&](int i) {
@@ -118,7 +125,7 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
     for_each_lane(bits(passes), [&](int i) {
         const int k = lane(index, i);
         // First-hit planes show the pane.
-        if (bounce == 0 && scratch.first && passed[k] == 0) {
+        if (rays.from_camera && rays.bounce == 0 && scratch.first && passed[k] == 0) {
             FirstHitColumns& c = *scratch.first;
             c.albedo_r[k] = lane(p.albedo.x, i);
             c.albedo_g[k] = lane(p.albedo.y, i);
@@ -134,6 +141,8 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
         now.beta_r[k] = lane(beta.x, i);
         now.beta_g[k] = lane(beta.y, i);
         now.beta_b[k] = lane(beta.z, i);
+        // Chains of manifold sampling pass no panes.
+        if constexpr (S.has(Feature::light_paths)) now.chain[k] = 0;
     });
     const Vec<F> from = offset_origin(p.position, p.error, p.ng, Mask<F>(false));
     const unsigned b = bits(passes);
@@ -154,19 +163,19 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
 // Call after `now` was traced: replaces the hits of paths that pass panes by the first hits behind them, t still from the path's
 // origin. Overwrites `rest`.
 template <Features S, class F>
-void trace_through_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
+void trace_through_panes(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, const PathRays& rays) {
     if (!scratch.panes) scratch.panes = std::make_unique<PaneColumns>();
     PaneColumns& panes = *scratch.panes;
     std::fill_n(panes.passed.data, now.size, 0);
     rest.size = 0;
     for (int k = 0; k < now.size; k += width<F>) {
         const Int<F> index = iota<F>() + k;
-        pass_panes<S, F>(context, scratch, now, rest, index, load_hit<F>(scratch.hits, k), bounce, as_mask(index < now.size));
+        pass_panes<S, F>(context, scratch, now, rest, index, load_hit<F>(scratch.hits, k), rays, as_mask(index < now.size));
     }
     // Each iteration advances each ray by one surface.
     for (int round = 0; rest.size > 0 && round < max_path_length; ++round) {
         scratch.bounce_rays += rest.size;
-        trace_rays<F>(context, scratch.random, rest, bounce, panes.hits);
+        trace_rays<F>(context, scratch.random, rest, rays, panes.hits);
         const int count = std::exchange(rest.size, 0);
         for (int k = 0; k < count; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < count);
@@ -183,7 +192,7 @@ void trace_through_panes(const KernelContext& context, TileScratch& scratch, Pat
                 scratch.hits.triangle[at] = lane(hit.triangle, i);
             });
             // never appends beyond the entries already read
-            pass_panes<S, F>(context, scratch, now, rest, index, hit, bounce, active);
+            pass_panes<S, F>(context, scratch, now, rest, index, hit, rays, active);
         }
     }
 }
@@ -193,7 +202,7 @@ void trace_through_panes(const KernelContext& context, TileScratch& scratch, Pat
 // Continues the queue's shadow rays from k on behind the panes that they hit, attenuated; rays without remaining light, or that
 // hit anything else, end. Appends to the queue, which must hold no more than k rays.
 template <Features S, class F>
-void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k, const Hit<F>& hit, const Mask<F>& active) {
+void move_shadow_rays(const KernelContext& context, TileScratch& scratch, Connects to, int k, const Hit<F>& hit, const Mask<F>& active) {
     ShadowQueue& q = scratch.shadows;
     const Mask<F> pane = is_pane<S, F>(*context.scene, hit, active);
     if (!any(pane)) return;
@@ -211,18 +220,25 @@ void move_shadow_rays(const KernelContext& context, TileScratch& scratch, int k,
     const Mask<F> goes_on = pane && has_light(s.direct);
     const unsigned b = bits(goes_on);
     if (context.scene->blends) compress(q.random + q.size, load<UInt<F>>(q.random + k), b);
-    if (scratch.groups) compress(q.group + q.size, load<Int<F>>(q.group + k), b);
-    if (scratch.trials) compress(q.trial + q.size, load<Int<F>>(q.trial + k), b);
-    if (context.scene->links.lit_sets) compress(q.mask + q.size, load<UInt<F>>(q.mask + k), b);
+    if (to == Connects::to_camera) {
+        LightPathColumns& splats = *scratch.light_paths;
+        compress(splats.x + q.size, load<F>(splats.x + k), b);
+        compress(splats.y + q.size, load<F>(splats.y + k), b);
+        if (splats.measures) compress(splats.others + q.size, load<F>(splats.others + k), b);
+    } else {
+        if (scratch.groups) compress(q.group + q.size, load<Int<F>>(q.group + k), b);
+        if (scratch.trials) compress(q.trial + q.size, load<Int<F>>(q.trial + k), b);
+        if (context.scene->links.lit_sets) compress(q.mask + q.size, load<UInt<F>>(q.mask + k), b);
+    }
     append<F>(q, s, slot, goes_on);
 }
 
 // Closest hits of the queue's shadow rays on all but blended surfaces, whose transmittance up to there dims their light. Panes that
 // are blended are met by chance: a ray that hits one goes on, times the pane's transmittance, and must not be dimmed as well.
-template <Features S, class F> void trace_past_blended(const KernelContext& context, TileScratch& scratch, bool coherent) {
+template <Features S, class F> void trace_past_blended(const KernelContext& context, TileScratch& scratch, Connects to, bool coherent) {
     ShadowQueue& q = scratch.shadows;
     HitColumns& h = scratch.hits;
-    RayArrays rays = shadow_rays_of(context, q);
+    RayArrays rays = connection_rays(context, q, to);
     context.accel->intersect_unblended(rays, q.size, coherent, {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
     if (!scratch.panes) scratch.panes = std::make_unique<PaneColumns>();
     Column<float>&end = scratch.panes->hits.t, &share = scratch.panes->hits.u;
@@ -238,27 +254,50 @@ template <Features S, class F> void trace_past_blended(const KernelContext& cont
     for (int k = 0; k < q.size; ++k) dim_shadow_light(scratch, k, share[k]);
 }
 
-// Adds the light of all shadow rays that reach their light through any number of panes. Empties the queue.
-template <Features S, class F> void connect_through_panes(const KernelContext& context, TileScratch& scratch, int bounce) {
+// Calls arrive(k) for all shadow rays k that reach their end through any number of panes. Empties the queue. `coherent`: the first rays.
+template <Features S, class F, class Arrive>
+void connect_through_panes(const KernelContext& context, TileScratch& scratch, Connects to, bool coherent, const Arrive& arrive) {
     ShadowQueue& q = scratch.shadows;
     HitColumns& h = scratch.hits;
     for (int round = 0; q.size > 0 && round < max_path_length; ++round) {
         if (round > 0) scratch.shadow_rays += q.size;
-        const bool coherent = bounce == 0 && round == 0;
+        const bool side_by_side = coherent && round == 0;
         if (context.scene->blends)
-            trace_past_blended<S, F>(context, scratch, coherent);
+            trace_past_blended<S, F>(context, scratch, to, side_by_side);
         else
-            trace_closest<F>(*context.accel, shadow_rays_of(context, q), q.size, coherent,
+            trace_closest<F>(*context.accel, connection_rays(context, q, to), q.size, side_by_side,
                              {h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
         const int count = std::exchange(q.size, 0);
         for (int k = 0; k < count; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < count);
             const Hit<F> hit = load_hit<F>(h, k);
             const Mask<F> arrives = active && as_mask(hit.geometry < 0);
-            for_each_lane(bits(arrives), [&](int i) { add_shadow_light(scratch, q, k + i); });
-            move_shadow_rays<S, F>(context, scratch, k, hit, active);
+            for_each_lane(bits(arrives), [&](int i) { arrive(k + i); });
+            move_shadow_rays<S, F>(context, scratch, to, k, hit, active);
         }
     }
+}
+
+// Calls arrive(k) for all shadow rays k of the queue that are not blocked, with the light that is left. `coherent`: they are side by side.
+template <Features S, class F, class Arrive>
+void connect_rays(const KernelContext& context, TileScratch& scratch, Connects to, bool coherent, const Arrive& arrive) {
+    if constexpr (S.has(Feature::transmission))
+        if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, to, coherent, arrive);
+    const ShadowQueue& q = scratch.shadows;
+    const RayArrays rays = connection_rays(context, q, to);
+    if (context.scene->blends) {
+        const float* share = scratch.hits.t; // free: the bounce's hits are shaded
+        context.accel->transmittance(rays, q.size, coherent, scratch.hits.t);
+        for (int k = 0; k < q.size; ++k) {
+            if (!(share[k] > 0)) continue;
+            dim_shadow_light(scratch, k, share[k]);
+            arrive(k);
+        }
+        return;
+    }
+    trace_any<F>(*context.accel, rays, q.size, coherent, scratch.blocked);
+    for (int k = 0; k < q.size; ++k)
+        if (!scratch.blocked[k]) arrive(k);
 }
 
 } // namespace blush::inline BLUSH_ISA

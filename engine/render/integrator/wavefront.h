@@ -149,9 +149,10 @@ template <Features S, class F>
 void trace_paths(const KernelContext& context, TileScratch& scratch, PathQueue& now, PathQueue& rest, int bounce) {
     const bool sees_past = sees_past_blended(*context.scene);
     if (sees_past && !scratch.background_share) scratch.background_share = std::make_unique<Column<float>>();
-    trace_rays<F>(context, scratch.random, now, bounce, scratch.hits, sees_past ? scratch.background_share->data : nullptr);
+    const PathRays rays = camera_path_rays(bounce);
+    trace_rays<F>(context, scratch.random, now, rays, scratch.hits, sees_past ? scratch.background_share->data : nullptr);
     if constexpr (S.has(Feature::transmission))
-        if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, bounce);
+        if (context.scene->panes) trace_through_panes<S, F>(context, scratch, now, rest, rays);
 }
 
 // Returns the ticks spent on sampling lights, which are a part of its own.
@@ -229,22 +230,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
 
 // Adds the light of all unoccluded shadow rays.
 template <Features S, class F> void connect_paths(const KernelContext& context, TileScratch& scratch, int bounce) {
-    if constexpr (S.has(Feature::transmission))
-        if (context.scene->panes) return connect_through_panes<S, F>(context, scratch, bounce);
-    const ShadowQueue& q = scratch.shadows;
-    if (context.scene->blends) {
-        const float* share = scratch.hits.t; // free: the bounce's hits are shaded
-        context.accel->transmittance(shadow_rays_of(context, q), q.size, bounce == 0, scratch.hits.t);
-        for (int k = 0; k < q.size; ++k) {
-            if (!(share[k] > 0)) continue;
-            dim_shadow_light(scratch, k, share[k]);
-            add_shadow_light(scratch, q, k);
-        }
-        return;
-    }
-    trace_any<F>(*context.accel, shadow_rays_of(context, q), q.size, bounce == 0, scratch.blocked);
-    for (int k = 0; k < q.size; ++k)
-        if (!scratch.blocked[k]) add_shadow_light(scratch, q, k);
+    connect_rays<S, F>(context, scratch, Connects::to_lights, bounce == 0, [&](int k) { add_shadow_light(scratch, scratch.shadows, k); });
 }
 
 // Adds the light of chains at the vertices of a bounce. Overwrites `rays`.

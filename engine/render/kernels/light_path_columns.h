@@ -42,12 +42,12 @@ struct LightPathColumns {
     // By path of the two queues: density of the other strategies for the path up to its last vertex over that of light paths, where a
     // camera path hits the light, and where NEE connects to it.
     Column<float> hit_ratio[2], nee_ratio[2];
-    // By connection of the shadow queue: image position in pixels; luminance without MIS, and the density of the camera's strategies over
-    // that of light paths (only if `measures`).
-    Column<float> x, y, amount, others;
+    // By connection of the shadow queue: image position in pixels; density of the camera's strategies over that of light paths (only if
+    // `measures`).
+    Column<float> x, y, others;
 
     std::vector<Splat> splats; // accumulated
-    // For the pilot: the connections that became splats.
+    // For the pilot: the connections that became splats. `amount`: luminance without MIS.
     struct Moment {
         int32_t pixel;
         float amount, others;

@@ -10,9 +10,6 @@ const char* why_no_caustics(const RenderSettings& settings, const RenderScene& s
     if (settings.strategy != Strategy::mis) return "light and BSDF sampling are not combined";
     if (settings.heuristic != MisHeuristic{}) return "MIS uses another heuristic than the power heuristic with exponent 2";
     if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";
-    if (tables.blends) return "a surface is blended";
-    if (tables.panes) return "a pane transmits light straight through";
-    if (tables.links.lit_sets) return "a light is linked to objects";
     if (film.planes.roulette) return "a view shows paths by their length";
     // Direct light by group is complete only after manifold sampling has added indirect light.
     if (film.groups > 0 && settings.clamp.limit > 0) return "the light mix is on and samples are clamped";

@@ -14,6 +14,10 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
     const char* why = why_excluded(settings, CausticStrategy::manifold);
     if (why) return why;
     if (scene.features().has(Feature::dispersion)) return "a solid has dispersion"; // Newton's method traces one index of refraction
+    const SceneTables& tables = scene.tables();
+    // Chance hits do not know the transmittance of what they have passed, and walks do not ask for links.
+    if (tables.blends) return "a surface is blended";
+    if (tables.links.lit_sets) return "a light is linked to objects";
     return why_no_caustics(settings, scene, film);
 }
 
@@ -64,6 +68,8 @@ FeatureUse ManifoldChoice::vertex_report() const {
     FeatureUse use{.part = "kernel", .name = "light vertices", .used = uses_light_vertices(), .why = {}};
     if (!pays())
         use.why = "manifold sampling is not used";
+    else if (pilot_->emission.empty())
+        use.why = "a pane transmits light straight through";
     else if (pilot_->usual_ratio == 0)
         use.why = "pilot: no light path has reached a diffuse surface by mirrors and smooth glass alone";
     else

@@ -132,7 +132,10 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     if (pilot.seeds.empty()) return pilot;
     SceneTables tables = *context.scene;
     tables.manifolds = pilot.seeds.tables(casters);
-    pilot.emission = LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
+    // Light vertices are not connected through panes.
+    if (!tables.panes)
+        pilot.emission =
+            LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
     const PilotImage image = pilot_image(context.settings, manifold_pixels);
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;

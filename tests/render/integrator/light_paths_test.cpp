@@ -10,9 +10,12 @@
 #include "tests/render/integrator/caustic_images.h"
 #include "tests/support/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,6 +67,58 @@ std::vector<std::pair<const char*, Scene>> lit_scenes() {
     place(prism, ceiling_quad(0.5f, 2.5f), emitter(10));
     prism.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
     return scenes;
+}
+
+// What lets pass a part of the light, before, between and behind the balls: panes, of which one glows and one is half diffuse, blended
+// surfaces, and panes that are blended.
+Scene with_panes(Scene scene) {
+    Material pane = glass(0, 1.5f);
+    pane.thickness = 0;
+    pane.base_color = {0.9f, 0.6f, 0.8f};
+    Material glowing = pane, half = pane;
+    glowing.emissive = {1, 2, 3};
+    glowing.double_sided = true;
+    half.transmission = 0.5f;
+    place(scene, floor_quad(0.8f, 1.6f), pane, at({0.5f, 0, 0}));
+    place(scene, floor_quad(0.4f, 1.2f), glowing, at({-0.6f, 0, 0.3f}));
+    place(scene, quad({-0.5f, 0.1f, 1}, {0.9f, 0.1f, 1}, {0.9f, 0.9f, 1}, {-0.5f, 0.9f, 1}), half);
+    return scene;
+}
+Scene with_leaves(Scene scene, bool of_glass) {
+    Material leaf = of_glass ? glass(0, 1.5f) : lambert({0.2f, 0.6f, 0.3f});
+    leaf.thickness = 0;
+    leaf.alpha = Material::Alpha::blend;
+    leaf.opacity = 0.6f;
+    place(scene, floor_quad(0.7f, 1.5f), leaf, at({0.4f, 0, 0}));
+    place(scene, floor_quad(0.4f, 1.1f), leaf, at({-0.6f, 0, 0.3f}));
+    place(scene, quad({-0.2f, 0.1f, 1.1f}, {1.2f, 0.1f, 1.1f}, {1.2f, 0.9f, 1.1f}, {-0.2f, 0.9f, 1.1f}), leaf);
+    return scene;
+}
+// Lights that illuminate the metal or the glass ball alone, and one that illuminates all.
+Scene with_links() {
+    Scene scene = rough_balls();
+    const Id<Node> ball = place(scene, sphere(false), metal(0.2f), at({0, 0.4f, 0.9f}, 0.3f));
+    for (const bool all_but : {false, true}) {
+        Light light = caustic_light(Light::Kind::point, 20, 0.3f);
+        light.color = all_but ? Vec3{1, 0.5f, 0.2f} : Vec3{0.2f, 0.5f, 1};
+        light.lit_objects = {all_but, {ball}};
+        place_light(scene, light, at({all_but ? 0.6f : -0.6f, 2, 0.5f}));
+    }
+    place_light(scene, caustic_light(Light::Kind::point, 5, 0.3f), at({0, 2.5f, 0}));
+    return scene;
+}
+std::vector<std::pair<const char*, Scene>> crossed_scenes() {
+    const auto lit = lit_scenes();
+    const auto scene_of = [&](std::string_view name) {
+        return std::ranges::find(lit, name, [](const auto& scene) { return std::string_view(scene.first); })->second;
+    };
+    const Scene lamp = scene_of("one-sided triangles"), sun = scene_of("sun");
+    return {{"panes", with_panes(lamp)},
+            {"panes under a sun", with_panes(sun)},
+            {"blended surfaces", with_leaves(lamp, false)},
+            {"blended surfaces under a sun", with_leaves(sun, false)},
+            {"panes and blended ones", with_leaves(with_panes(lamp), true)},
+            {"linked lights", with_links()}};
 }
 
 struct Compiled {
@@ -247,8 +302,8 @@ std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settin
     return caustic_blocks(scene, settings, {.light_path_share = share}, "light paths", share > 0, images, first_seed);
 }
 
-TEST(LightPaths, AgreeWithTheOtherStrategies) {
-    for (const auto& [name, scene] : lit_scenes()) {
+void agree_with_the_other_strategies(const std::vector<std::pair<const char*, Scene>>& scenes) {
+    for (const auto& [name, scene] : scenes) {
         SCOPED_TRACE(name);
         RenderSettings settings = settings_for(36, 36, 16);
         const auto without = blocks_of(scene, settings, 0, 20, 1);
@@ -257,6 +312,19 @@ TEST(LightPaths, AgreeWithTheOtherStrategies) {
         settings.spp = 16;
         EXPECT_TRUE(same_means(blocks_of(scene, settings, 0.125f, 20, 2000), without));
     }
+}
+TEST(LightPaths, AgreeWithTheOtherStrategies) { agree_with_the_other_strategies(lit_scenes()); }
+TEST(LightPaths, AgreeThroughPanesAndBlendedSurfacesAndForLinkedLights) { agree_with_the_other_strategies(crossed_scenes()); }
+
+TEST(LightPaths, AreLeftOutWhereALightHasItsOwnShadowCasters) {
+    Scene scene = rough_balls();
+    Light light = caustic_light(Light::Kind::point, 20, 0.3f);
+    light.shadow_casters = {true, {place(scene, sphere(false), metal(0.2f), at({0, 0.4f, 0.9f}, 0.3f))}};
+    place_light(scene, light, at({0, 2, 0.5f}));
+    Renderer renderer({.caustics = {.light_path_share = 1.f}});
+    renderer.update(scene, settings_for(8, 8, 2));
+    renderer.render(0, 2);
+    EXPECT_EQ(feature_line(renderer, "light paths").why, "a light has shadow casters of its own");
 }
 
 TEST(LightPaths, AgreeForEveryCamera) {
@@ -287,7 +355,9 @@ std::vector<Splat> splats_of(const Scene& scene, const Kernel& kernel) {
 }
 
 TEST(LightPaths, AreTheSameBitsFromEveryKernel) {
-    for (const auto& [name, scene] : lit_scenes()) {
+    auto scenes = lit_scenes();
+    std::ranges::move(crossed_scenes(), std::back_inserter(scenes));
+    for (const auto& [name, scene] : scenes) {
         SCOPED_TRACE(name);
         const std::vector<Splat> expected = splats_of(scene, kernels_of("scalar").back());
         ASSERT_GT(expected.size(), 100u);
