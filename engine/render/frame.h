@@ -30,7 +30,7 @@ struct ErrorEstimate {
     double relmse = 0, low = 0, high = 0; // mean of (a - b)^2 / (b^2 + 0.01), b being the true value
     bool rmse_known = false;
     double rmse = 0, rmse_low = 0, rmse_high = 0; // root of the mean of (a - b)^2
-    bool misses_highlights = false;               // not known because of small highlights (small_highlights.h)
+    bool misses_highlights = false;               // small highlights widen an interval, or make it unknown (small_highlights.h)
 };
 
 // Statistics of a light group before its gain, per channel: the mean of its plane, and the mean square of half the difference of

@@ -220,7 +220,7 @@ ErrorEstimate Renderer::estimate_error() {
         error.known = error.known && error.high > 0;
         error.rmse_known = error.rmse_known && error.rmse_high > 0;
     }
-    if (s.highlights) exclude_small_highlights(error, *s.highlights, double(s.samples), s.film.width(), s.film.height());
+    if (s.highlights) include_small_highlights(error, *s.highlights, double(s.samples), s.film.width(), s.film.height());
     return error;
 }
 

@@ -94,7 +94,7 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
 
 Cell error_cell(const Frame& frame) {
     const ErrorEstimate& e = frame.error;
-    if (e.misses_highlights)
+    if (e.misses_highlights && !e.known)
         return {12, "error: highlights missing?",
                 "Lamps in mirrors or glass make highlights that are too small for the samples so far. Some may be missing from the image, "
                 "so its error is not known. More samples or a larger image find them.",
@@ -106,8 +106,9 @@ Cell error_cell(const Frame& frame) {
             fmt::format("error {:.3g} %", 100 * std::sqrt(e.relmse)) + (older ? fmt::format(" at {} spp", frame.error_samples) : ""),
             fmt::format(
                 "Estimated relative error (root of relMSE) of {}, from two independent halves of the samples. relMSE {:.3g}, 95 % interval "
-                "{:.3g} to {:.3g}.",
-                of, e.relmse, e.low, e.high),
+                "{:.3g} to {:.3g}.{}",
+                of, e.relmse, e.low, e.high,
+                e.misses_highlights ? " Small highlights of lamps in mirrors or glass may be missing; the interval allows for them." : ""),
             tone::text, 8};
 }
 

@@ -10,7 +10,8 @@ double square_of(double x) { return x * x; }
 
 constexpr int64_t min_pixels = 64;
 constexpr double min_degrees_of_freedom = 20; // degrees of freedom, for normal errors
-constexpr double max_interval_ratio = 10;     // ratio high / low of relmse's interval
+constexpr double max_interval_ratio = 10;     // ratio high / low of relmse's interval, and of rmse's with small highlights
+constexpr double max_missed_share = 0.1;      // of the squared error: moves the RMSE by 5 %, about the half width of its interval
 constexpr double max_brightest_share = 0.3;   // of the squared error, for one sample of the brightest pixel
 // Bias correction and its standard deviation, as fractions of the logarithm of (relmse with the darkest neighbourhood / relmse
 // with the default one).
@@ -63,10 +64,20 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     return e;
 }
 
-void exclude_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height) {
+void include_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height) {
     const int64_t pixels = int64_t(width) * height;
-    error.misses_highlights = highlights.may_be_missed(samples, pixels, square_of(error.rmse) * 3 * double(pixels));
-    if (error.misses_highlights) error.known = error.rmse_known = false;
+    const double values = 3 * double(pixels);
+    const SmallHighlights::Missed missed = highlights.missed(samples, pixels);
+    if (missed.squares > max_missed_share * square_of(error.rmse) * values) {
+        error.misses_highlights = true;
+        error.rmse_high = std::sqrt(square_of(error.rmse_high) + missed.squares / values);
+        error.rmse_known = error.rmse_known && error.rmse_high <= max_interval_ratio * error.rmse_low;
+    }
+    if (missed.relative > max_missed_share * error.relmse * values) {
+        error.misses_highlights = true;
+        error.high += missed.relative / values;
+        error.known = error.known && error.high <= max_interval_ratio * error.low;
+    }
 }
 
 } // namespace blush

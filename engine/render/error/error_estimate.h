@@ -33,8 +33,8 @@ namespace blush {
 // `sharing`: variance of the sums of products relative to independent pixels (path reuse correlates pixels).
 ErrorEstimate estimate_error(const ErrorSums& sums, double sharing = 1);
 
-// Makes the error unknown if small highlights, which both halves may have missed, may be a large part of it. `samples`: per pixel of an
-// image of this size.
-void exclude_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height);
+// Raises the upper ends of the intervals by the error of small highlights, which both halves may have missed, if it may be a large part.
+// Beyond a factor of 10 between the ends the error is unknown. `samples`: per pixel of an image of this size.
+void include_small_highlights(ErrorEstimate& error, const SmallHighlights& highlights, double samples, int width, int height);
 
 } // namespace blush

@@ -6,8 +6,7 @@
 namespace blush {
 namespace {
 
-constexpr double min_meetings = 20;      // with fewer, the error of the samples says too little
-constexpr double max_missed_share = 0.1; // of the squared error: moves the RMSE by 5 %, about the half width of its interval
+constexpr double min_meetings = 20; // with fewer, the error of the samples says too little
 
 } // namespace
 
@@ -27,16 +26,21 @@ void SmallHighlights::add(double luminance, const Band& light, int samples) {
     band.sum = band.sum + light.sum;
 }
 
-bool SmallHighlights::may_be_missed(double samples, int64_t pixels, double squares) const {
-    double missed = 0;
+SmallHighlights::Missed SmallHighlights::missed(double samples, int64_t pixels) const {
+    Missed sum;
     for (size_t k = 0; k < bands.size(); ++k) {
         const Band& band = bands[k];
         const double covered = band.rate * double(pixels), taken = samples * std::max(1, samples_of_set[k / num_bands]);
         if (covered * taken >= min_meetings) continue;
-        const Vec3d all = band.sum * double(pixels);
-        missed += dot(all, all) / std::max(1.0, covered);
+        const double in_pixels = std::max(1.0, covered);
+        const Vec3d light = band.sum * (double(pixels) / in_pixels); // of one of them
+        for (const double l : {light.x, light.y, light.z}) {
+            sum.squares += in_pixels * l * l;
+            // The true value is this light at least.
+            sum.relative += in_pixels * l * l / (l * l + 0.01);
+        }
     }
-    return missed > max_missed_share * squares;
+    return sum;
 }
 
 } // namespace blush

@@ -31,10 +31,14 @@ struct SmallHighlights {
     void add(double luminance, const Band& light, int samples = 0);
     bool operator==(const SmallHighlights&) const = default;
 
-    // True if highlights that the samples of an image have hardly met may be a large part of its squared error. `samples`: per pixel;
-    // `squares`: estimated sum of the squared errors of pixels and channels. A band is hardly met if fewer than 20 samples are expected
-    // to, of the emission where a pixel takes more of these; its light is taken to lie in as many pixels as it covers, or in one.
-    bool may_be_missed(double samples, int64_t pixels, double squares) const;
+    // The error of an image that lacks what its samples have hardly met: sums over pixels and channels of the squared error, and of that
+    // over the squared true value plus 0.01 (relMSE), at most. `samples`: per pixel. A band is hardly met if fewer than 20 samples are
+    // expected to, of the emission where a pixel takes more of these; its light is taken to lie in as many pixels as it covers, or in
+    // one.
+    struct Missed {
+        double squares = 0, relative = 0;
+    };
+    Missed missed(double samples, int64_t pixels) const;
 };
 
 } // namespace blush

@@ -223,7 +223,7 @@ Result<ResolvedFilm> resolve_film(const FilmState& state, const RenderSettings& 
     frame.health.truncated = state.truncated;
     // Images with light paths have no path reuse.
     frame.error = estimate_error(film, film_size(state).light_paths ? 1 : reuse_group_size(settings, state.reuse_pilot), workers);
-    if (state.highlights) exclude_small_highlights(frame.error, *state.highlights, double(state.samples), state.width, state.height);
+    if (state.highlights) include_small_highlights(frame.error, *state.highlights, double(state.samples), state.width, state.height);
     frame.error_samples = frame.samples;
     frame.error_at = frame.seconds;
     resolved.error = film.standard_error();

@@ -13,6 +13,9 @@ TEST(ErrorText, HasWhatIsKnownWithItsInterval) {
     ErrorEstimate one = both;
     one.known = false;
     EXPECT_EQ(error_text(one, 3), "estimated RMSE 0.2 (0.15 to 0.25)");
+    one.misses_highlights = true;
+    EXPECT_EQ(error_text(one, 3),
+              "estimated RMSE 0.2 (0.15 to 0.25); small highlights of lamps may be missing, which the intervals allow for");
 }
 
 TEST(ErrorText, SaysWhyNothingIsKnown) {

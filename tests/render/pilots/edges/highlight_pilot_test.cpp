@@ -100,17 +100,47 @@ ErrorEstimate error_of(const Scene& scene, int64_t spp, FilmState* state = nullp
 
 // At this size the lamp in the gold of the metal ring covers a hundredth of a pixel, which is 0.07 of the RMSE; samples without it
 // estimated 0.03 with an interval of 10 %.
-TEST(HighlightPilot, MakesTheErrorUnknownWhereHighlightsMayBeMissing) {
+TEST(HighlightPilot, RaisesTheErrorWhereHighlightsMayBeMissing) {
     for (const auto& [name, spp] : {std::pair("metal-ring", 2), std::pair("wine-glass", 16), std::pair("bulb", 2)}) {
         FilmState state;
         const ErrorEstimate error = error_of(shipped_scene(name), spp, &state);
         EXPECT_TRUE(error.misses_highlights) << name;
-        EXPECT_FALSE(error.known || error.rmse_known) << name;
+        EXPECT_FALSE(error.rmse_known && error.rmse_high > 10 * error.rmse_low) << name;
         const ErrorEstimate saved = resolve_film(state, settings_for(64, 36, spp))->frame.error;
         EXPECT_TRUE(saved.misses_highlights) << name;
+        EXPECT_EQ(saved.rmse_high, error.rmse_high) << name;
         state.highlights.reset();
-        EXPECT_FALSE(resolve_film(state, settings_for(64, 36, spp))->frame.error.misses_highlights) << name;
+        const ErrorEstimate without = resolve_film(state, settings_for(64, 36, spp))->frame.error;
+        EXPECT_FALSE(without.misses_highlights) << name;
+        EXPECT_GT(error.rmse_high, 1.04 * without.rmse_high) << name;
+        EXPECT_EQ(error.rmse, without.rmse) << name;
+        EXPECT_EQ(error.rmse_low, without.rmse_low) << name;
     }
+}
+
+TEST(SmallHighlights, RaiseTheUpperEndsOfIntervals) {
+    SmallHighlights lamp;
+    lamp.of(400) = {1e-5, {4e-3, 4e-3, 4e-3}}; // 8 nits in one of 2000 pixels
+    constexpr double values = 3 * 2000;
+    const ErrorEstimate before{true, 0.01, 0.009, 0.011, true, 0.1, 0.09, 0.11, false};
+    ErrorEstimate error = before;
+    include_small_highlights(error, lamp, 16, 50, 40);
+    EXPECT_TRUE(error.misses_highlights && error.rmse_known && error.known);
+    EXPECT_NEAR(error.rmse_high, std::sqrt(0.11 * 0.11 + 3 * 64 / values), 1e-9);
+    EXPECT_EQ(error.rmse_low, before.rmse_low);
+    EXPECT_EQ(error.high, before.high) << "at most 3 of 60 relative squares are missing";
+    error.relmse = 0.004, error.low = 0.0035, error.high = 0.0045;
+    include_small_highlights(error, lamp, 16, 50, 40);
+    EXPECT_NEAR(error.high, 0.0045 + 3 * 64 / 64.01 / values, 1e-9);
+    error = before;
+    error.rmse = 0.01, error.rmse_low = 0.009, error.rmse_high = 0.011;
+    include_small_highlights(error, lamp, 16, 50, 40);
+    EXPECT_FALSE(error.rmse_known) << "a factor of 20";
+    EXPECT_TRUE(error.known);
+    error = before;
+    include_small_highlights(error, lamp, 1001, 50, 40);
+    EXPECT_FALSE(error.misses_highlights) << "20 samples meet it";
+    EXPECT_EQ(error.rmse_high, before.rmse_high);
 }
 
 TEST(HighlightPilot, LeavesTheErrorKnownElsewhere) {
@@ -125,13 +155,16 @@ TEST(SmallHighlights, AreHardlyMetByFewSamplesOnly) {
     SmallHighlights lamp;
     lamp.of(400) = {1e-5, {4e-3, 4e-3, 4e-3}}; // 1e-5 of 2000 pixels: 0.02 of a pixel, which is 8 nits brighter for it
     const double squares = 3 * 64;             // of 8 nits in one pixel
-    EXPECT_TRUE(lamp.may_be_missed(16, 2000, squares / 2));
-    EXPECT_TRUE(lamp.may_be_missed(16, 2000, 9 * squares));
-    EXPECT_FALSE(lamp.may_be_missed(16, 2000, 11 * squares)) << "a small part of the error";
-    EXPECT_TRUE(lamp.may_be_missed(999, 2000, squares));
-    EXPECT_FALSE(lamp.may_be_missed(1001, 2000, squares)) << "20 samples meet it";
-    EXPECT_FALSE(SmallHighlights{}.may_be_missed(1, 2000, 1e-9));
-    EXPECT_FALSE(SmallHighlights{}.may_be_missed(1, 2000, 0));
+    for (const int samples : {1, 16, 999}) {
+        EXPECT_NEAR(lamp.missed(samples, 2000).squares, squares, 1e-9 * squares);
+        EXPECT_NEAR(lamp.missed(samples, 2000).relative, 3 * 64 / 64.01, 1e-9);
+    }
+    EXPECT_EQ(lamp.missed(1001, 2000).squares, 0) << "20 samples meet it";
+    EXPECT_EQ(lamp.missed(1001, 2000).relative, 0);
+    EXPECT_EQ(SmallHighlights{}.missed(1, 2000).squares, 0);
+    lamp.of(400) = {2e-3, {4e-3, 4e-3, 4e-3}}; // 2 nits in each of four pixels
+    EXPECT_NEAR(lamp.missed(4, 2000).squares, 3 * 4 * 4, 1e-9);
+    EXPECT_NEAR(lamp.missed(4, 2000).relative, 3 * 4 * 4 / 4.01, 1e-9);
     EXPECT_EQ(&lamp.of(400), &lamp.of(300)); // the octave from 256 to 512
     EXPECT_NE(&lamp.of(400), &lamp.of(200));
     EXPECT_EQ(&lamp.of(0), &lamp.bands.front());
@@ -142,8 +175,8 @@ TEST(SmallHighlights, AreMetMoreOftenInPixelsThatTakeMoreSamplesOfThem) {
     for (const int each : {highlight_samples, bright_highlight_samples}) {
         SmallHighlights lamp;
         lamp.add(400, {1e-5, {4e-3, 4e-3, 4e-3}}, each);
-        EXPECT_TRUE(lamp.may_be_missed(999.0 / each, 2000, 64)) << each;
-        EXPECT_FALSE(lamp.may_be_missed(1001.0 / each, 2000, 64)) << each;
+        EXPECT_GT(lamp.missed(999.0 / each, 2000).squares, 0) << each;
+        EXPECT_EQ(lamp.missed(1001.0 / each, 2000).squares, 0) << each;
     }
 }
 
