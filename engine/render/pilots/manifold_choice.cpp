@@ -14,10 +14,7 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
     const char* why = why_excluded(settings, CausticStrategy::manifold);
     if (why) return why;
     if (scene.features().has(Feature::dispersion)) return "a solid has dispersion"; // Newton's method traces one index of refraction
-    const SceneTables& tables = scene.tables();
-    // Chance hits do not know the transmittance of what they have passed, and walks do not ask for links.
-    if (tables.blends) return "a surface is blended";
-    if (tables.links.lit_sets) return "a light is linked to objects";
+    if (scene.tables().blends) return "a surface is blended"; // chance hits do not know the transmittance of what they have passed
     return why_no_caustics(settings, scene, film);
 }
 

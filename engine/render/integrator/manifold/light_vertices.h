@@ -72,7 +72,12 @@ template <Features S, class F>
         const Mask<F> active = as_mask(iota<F>() + k < size);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        const LightPathVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met);
+        LightPathVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met);
+        if constexpr (S.has(Feature::links))
+            if (bounce == 0 && scene.links.lit_sets) {
+                const Int<F> light = gather(scratch.light_vertices->light.data, select(met, path.slot, Int<F>(0)));
+                v.scatters = v.scatters && is_lit<F>(scene.links, light, v.surface.part, met);
+            }
         const Int<F> events = path.chain >> chain_count_shift;
         const Mask<F> ends = v.scatters && is_lambertian<S, F>(v.bsdf);
         const Mask<F> arrived = ends && !v.shading.behind && as_mask(events > 0);
@@ -176,7 +181,9 @@ template <class F> void add_connections(const KernelContext& context, TileScratc
     const LightVertexColumns& c = *scratch.light_vertices;
     const ShadowQueue& q = c.connections;
     scratch.shadow_rays += q.size;
-    trace_any<F>(*context.accel, shadow_rays_of(context, q), q.size, false, scratch.blocked);
+    RayArrays rays = shadow_rays_of(context, q);
+    rays.masks = nullptr; // they end at surfaces, not at lights
+    trace_any<F>(*context.accel, rays, q.size, false, scratch.blocked);
     for (int k = 0; k < q.size; ++k) {
         if (scratch.blocked[k]) continue;
         const int slot = q.slot[k];

@@ -67,7 +67,8 @@ template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const Scen
             const Mask<F> inside = chained && !met && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
             const Mask<F> in_sun = found_by_manifolds<S, F>(scene, path, Int<F>(record), inside);
             light = select(in_sun, Int<F>(record), light);
-            emitted = select<F>(in_sun, path.beta * splat<F>(sun.emission), emitted);
+            const F linked = if_linked<S, F>(scene, F(1.f), Int<F>(record), path, in_sun);
+            emitted = select<F>(in_sun, path.beta * splat<F>(sun.emission) * linked, emitted);
             target = select<F>(in_sun, path.ray.direction, target);
             found = found || in_sun;
         }

@@ -108,10 +108,11 @@ void add_ended_light(const KernelContext& context, TileScratch& scratch, const W
 // What becomes of walks in one round.
 template <class F> struct WalkRound {
     Mask<F> active;
-    Mask<F> alive;        // goes on
-    Mask<F> begins;       // with a new seed
-    Mask<F> missed;       // of these: a trial has failed
-    Mask<F> ends, failed; // the chain is complete; it cannot be continued
+    Mask<F> alive;            // goes on
+    Mask<F> begins;           // with a new seed
+    Mask<F> missed;           // of these: a trial has failed
+    Mask<F> ends, failed;     // the chain is complete; it cannot be continued
+    Int<F> part = Int<F>(-1); // of the event
 };
 
 // Solutions carry light if nothing is between the last surface and the light.
@@ -162,6 +163,7 @@ void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>&
         DifferentialRay<F> behind = w.ray;
         const auto event = specular_event<S, F>(*context.scene, context.settings, hit, as_mask((bit & 1) != 0), explore, u, met, behind);
         passed = met && event.valid;
+        round.part = event.part;
         pass_event<F>(behind, event, passed, explore, w);
     }
     // The chain of an exploring walk ends before the first surface without an event.
@@ -232,7 +234,12 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     if constexpr (S.has(Feature::light_profiles))
         found = found * emission_profile<F>(*context.scene, gather(c.light, w.index), -w.ray.direction, solved);
     const Mask<F> short_enough = as_mask((w.events + bounce) < context.settings.max_bounces);
-    const Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && short_enough;
+    Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && short_enough;
+    if constexpr (S.has(Feature::links)) {
+        const LinkTables& links = context.scene->links;
+        if (links.lit_sets)
+            carries = carries && is_lit<F>(links, select(carries, gather(c.light, w.index), Int<F>(0)), round.part, carries);
+    }
     const unsigned lanes = bits(carries);
     put3<F>(c.root, w.index, w.direction, lanes);
     const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, cosine, carries);

@@ -74,6 +74,7 @@ template <class F> struct SpecularEvent {
     Mask<F> valid;
     Mask<F> refracts;
     Vec<F> transmittance;
+    Int<F> part;
 };
 // The event at the hit of ray.direction; advances `ray` to behind it. `refracts`: which event; the lanes of `chooses` take it by chance
 // with the random number `u`. In the lanes of `active`, whose hit is a surface.
@@ -90,6 +91,7 @@ template <Features S, class F>
     const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
 
     SpecularEvent<F> event;
+    event.part = surface.part;
     const FacetAlbedo<F> albedo = facet_albedo<S>(bsdf, bsdf.cos);
     refracts = select(chooses, u >= facet_probability<S>(albedo, Mask<F>(true)), refracts);
     event.refracts = refracts;

@@ -64,6 +64,21 @@ inline std::vector<std::pair<const char*, Scene>> lit_scenes() {
         sun.angle_radians = 0.6f;
         place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
     });
+    // Two spheres, one for a third ball alone and one for all but this, and a sun that does not see it.
+    add("linked lights", [](Scene& s) {
+        const Id<Node> ball = place(s, round_sphere(), glass(0, 1.5f), at({0, 0.4f, 0.9f}, 0.3f));
+        for (const bool all_but : {false, true}) {
+            Light light = caustic_light(Light::Kind::point, 20, 0.5f);
+            light.color = all_but ? Vec3{1, 0.5f, 0.2f} : Vec3{0.2f, 0.5f, 1};
+            light.lit_objects = {all_but, {ball}};
+            place_light(s, light, at({all_but ? 0.8f : -0.8f, 2.2f, 0.5f}));
+        }
+        Light sun = caustic_light(Light::Kind::sun, 3);
+        sun.angle_radians = 0.6f;
+        sun.lit_objects = {true, {ball}};
+        sun.shadow_casters = {true, {ball}};
+        place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    });
     add("flat and stretched casters, absorption", [](Scene& s) {
         Material green = glass(0, 1.3f);
         green.attenuation_color = {0.3f, 0.9f, 0.5f};
