@@ -94,7 +94,7 @@ Scene with_leaves(Scene scene, bool of_glass) {
     place(scene, quad({-0.2f, 0.1f, 1.1f}, {1.2f, 0.1f, 1.1f}, {1.2f, 0.9f, 1.1f}, {-0.2f, 0.9f, 1.1f}), leaf);
     return scene;
 }
-// Lights that illuminate the metal or the glass ball alone, and one that illuminates all.
+// One light for a third ball alone, one for all but this ball, and one for all.
 Scene with_links() {
     Scene scene = rough_balls();
     const Id<Node> ball = place(scene, sphere(false), metal(0.2f), at({0, 0.4f, 0.9f}, 0.3f));
