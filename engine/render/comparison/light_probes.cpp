@@ -22,7 +22,7 @@ std::array<double, 9> spherical_harmonics(const Vec3d& d) {
             c22 * (d.x * d.x - d.y * d.y)};
 }
 
-Vec3d Probe::irradiance(const Vec3d& normal) const {
+Vec3d LightProbe::irradiance(const Vec3d& normal) const {
     constexpr double pi = std::numbers::pi, of_order[9] = {pi, 2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4, pi / 4, pi / 4, pi / 4, pi / 4};
     const std::array<double, 9> y = spherical_harmonics(normal);
     Vec3d sum{0, 0, 0};
@@ -31,11 +31,11 @@ Vec3d Probe::irradiance(const Vec3d& normal) const {
 }
 
 // Six cosine lobes along the axes cover the sphere: their mixture has the density (|x| + |y| + |z|) / 6 pi, which is nowhere small.
-Probe LightProbes::measure(const KernelContext& context, int64_t index, TileScratch& scratch) const {
+LightProbe LightProbes::measure(const KernelContext& context, int64_t index, TileScratch& scratch) const {
     const int64_t n = side();
     const Vec3d at = corner_ + Vec3d{double(index % n), double(index / n % n), double(index / (n * n))} * cell_;
     const int total = options_.rays > 0 ? options_.rays : options_.default_rays(), per_lobe = (total + 5) / 6;
-    Probe probe;
+    LightProbe probe;
     for (int lobe = 0; lobe < 6; ++lobe) {
         const float sign = lobe % 2 ? -1.f : 1.f;
         const Vec3 axis = lobe < 2 ? Vec3{sign, 0, 0} : lobe < 4 ? Vec3{0, sign, 0} : Vec3{0, 0, sign};

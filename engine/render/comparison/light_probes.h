@@ -13,7 +13,7 @@ namespace blush {
 // The nine real spherical harmonics up to order 2 in a unit direction: Y_00, Y_1-1, Y_10, Y_11, Y_2-2, Y_2-1, Y_20, Y_21, Y_22.
 std::array<double, 9> spherical_harmonics(const Vec3d& direction);
 
-struct Probe {
+struct LightProbe {
     std::array<Vec3d, 9> radiance{}; // coefficients, in nits
     // Equation 7 of the paper; not negative.
     Vec3d irradiance(const Vec3d& normal) const;
@@ -25,16 +25,16 @@ public:
     bool prepare(const PreparationContext& context) override;
     void irradiance(const KernelContext& context, std::span<const DiffusePoint> points, TileScratch& scratch,
                     std::span<Vec3d> out) const override;
-    size_t memory_bytes() const override { return probes_.capacity() * sizeof(Probe); }
+    size_t memory_bytes() const override { return probes_.capacity() * sizeof(LightProbe); }
 
 private:
     int side() const { return options_.grid + 1; }
-    Probe measure(const KernelContext& context, int64_t index, TileScratch& scratch) const;
+    LightProbe measure(const KernelContext& context, int64_t index, TileScratch& scratch) const;
 
     ComparisonIntegrator options_;
     Vec3d corner_{0, 0, 0};
     double cell_ = 1; // metres
-    std::vector<Probe> probes_;
+    std::vector<LightProbe> probes_;
 };
 
 } // namespace blush

@@ -49,7 +49,7 @@ void add_light_tile(const LightPathColumns& columns, double paths, Measured& m) 
     }
 }
 
-void add_camera_tile(const TileJob& tile, const Variant& v, Measured& m) {
+void add_camera_tile(const TileJob& tile, const VariantTile& v, Measured& m) {
     for (int y = 0; y < tile.height; ++y)
         for (int x = 0; x < tile.width; ++x) {
             const size_t k = 2 * (size_t(y) * size_t(tile.width) + size_t(x));
@@ -133,7 +133,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
     }
     context.seed = camera_seed;
     const std::vector<TileJob>& tiles = image.tiles;
-    std::vector<Variant> variants(tiles.size());
+    std::vector<VariantTile> variants(tiles.size());
     if (!for_each_tile(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
         return std::nullopt;
     for (size_t i = 0; i < tiles.size(); ++i) {

@@ -102,7 +102,7 @@ bool measure_light_vertices(KernelContext context, const PilotImage& image, std:
     tables.light_vertices = pilot.light_vertices();
     const double ray_cost = ray_cost_of(context);
     if (!renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
-            const Variant with = render_variant(context, renderer.kernel, image.tiles[i], tile);
+            const VariantTile with = render_variant(context, renderer.kernel, image.tiles[i], tile);
             VariantPair& pair = measured[i].pair;
             pair.without = without[i].pair.with;
             pair.with = sums_of(with, without[i].mean);
@@ -154,10 +154,10 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
         MeasuredTile& m = measured[i];
         tile.manifolds = std::make_unique<ManifoldColumns>();
         tile.manifolds->begin_measuring(job.paths());
-        const Variant by_manifolds = render_variant(with, kernel, job, tile);
+        const VariantTile by_manifolds = render_variant(with, kernel, job, tile);
         const auto columns = std::exchange(tile.manifolds, nullptr);
-        const Variant other = render_variant(context, without, job, tile);
-        const std::array<const Variant*, 1> known{&by_manifolds};
+        const VariantTile other = render_variant(context, without, job, tile);
+        const std::array<const VariantTile*, 1> known{&by_manifolds};
         m.mean = mean_of(known);
         m.pair.with = sums_of(by_manifolds, m.mean);
         m.pair.without = sums_without(m.pair.with, *columns, job.paths(), m.mean);

@@ -47,8 +47,8 @@ std::optional<PortalPilot> learn_portals(KernelContext context, const Kernel& ke
     const double ray_cost = ray_cost_of(context);
     std::vector<VariantPair> pairs(tiles.size());
     const bool measured = for_each_tile([&](size_t i, TileScratch& tile) {
-        const Variant with = render_variant(with_portals, kernel, tiles[i], tile);
-        const Variant without = render_variant(context, kernel, tiles[i], tile);
+        const VariantTile with = render_variant(with_portals, kernel, tiles[i], tile);
+        const VariantTile without = render_variant(context, kernel, tiles[i], tile);
         const Vec3d mean = mean_of(std::array{&with, &without});
         pairs[i] = {sums_of(with, mean), sums_of(without, mean)};
         pairs[i].with.work = path_work(with, ray_cost);

@@ -19,9 +19,9 @@ constexpr double sharing_cost = 0.08; // per camera path
 
 using PairsOfSizes = std::array<VariantPair, automatic_group_sizes.size()>;
 
-PairsOfSizes compare(const Variant& apart, const std::vector<Variant>& shared, double ray_cost) {
-    std::vector<const Variant*> all{&apart};
-    for (const Variant& v : shared) all.push_back(&v);
+PairsOfSizes compare(const VariantTile& apart, const std::vector<VariantTile>& shared, double ray_cost) {
+    std::vector<const VariantTile*> all{&apart};
+    for (const VariantTile& v : shared) all.push_back(&v);
     const Vec3d mean = mean_of(all);
     VariantSums without = sums_of(apart, mean);
     without.work = path_work(apart, ray_cost);
@@ -51,8 +51,8 @@ std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, con
     const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
         if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
         const TileJob& tile = tiles[size_t(i)];
-        const Variant without = render_variant(apart, kernel, tile, *scratch[worker]);
-        std::vector<Variant> with;
+        const VariantTile without = render_variant(apart, kernel, tile, *scratch[worker]);
+        std::vector<VariantTile> with;
         for (const KernelContext& size : sizes) with.push_back(render_variant(size, kernel, tile, *scratch[worker]));
         const PairsOfSizes pairs = compare(without, with, ray_cost);
         for (size_t k = 0; k < pairs.size(); ++k) measured[k][size_t(i)] = pairs[k];

@@ -13,10 +13,10 @@ constexpr double small_scene_cost = 0.65; // factor on paths where no BVH is nee
 
 } // namespace
 
-Variant render_variant(const KernelContext& context, const Kernel& kernel, const TileJob& tile, TileScratch& scratch) {
+VariantTile render_variant(const KernelContext& context, const Kernel& kernel, const TileJob& tile, TileScratch& scratch) {
     scratch.camera_rays = scratch.bounce_rays = scratch.shadow_rays = 0;
     kernel.render(context, tile, scratch);
-    Variant v;
+    VariantTile v;
     v.camera_rays = std::exchange(scratch.camera_rays, 0);
     v.rays = v.camera_rays + std::exchange(scratch.bounce_rays, 0);
     v.shadow_rays = std::exchange(scratch.shadow_rays, 0);
@@ -37,7 +37,7 @@ VariantSums& VariantSums::operator+=(const VariantSums& more) {
     return *this;
 }
 
-VariantSums sums_of(const Variant& v, const Vec3d& mean) {
+VariantSums sums_of(const VariantTile& v, const Vec3d& mean) {
     VariantSums sums;
     for (size_t i = 0; i < v.means.size(); i += 2) {
         const Vec3d d = v.means[i] - v.means[i + 1];
@@ -48,14 +48,14 @@ VariantSums sums_of(const Variant& v, const Vec3d& mean) {
     return sums;
 }
 
-Vec3d mean_of(std::span<const Variant* const> variants) {
+Vec3d mean_of(std::span<const VariantTile* const> variants) {
     Vec3d sum{0, 0, 0};
-    for (const Variant* v : variants)
+    for (const VariantTile* v : variants)
         for (const Vec3d& mean : v->means) sum = sum + mean;
     return sum * (1 / double(variants.size() * variants[0]->means.size()));
 }
 
-double path_work(const Variant& v, double ray_cost) { return ray_cost * (double(v.rays) + shadow_ray_cost * double(v.shadow_rays)); }
+double path_work(const VariantTile& v, double ray_cost) { return ray_cost * (double(v.rays) + shadow_ray_cost * double(v.shadow_rays)); }
 
 double ray_cost_of(const KernelContext& context) { return context.accel->small_scene() ? small_scene_cost : 1; }
 

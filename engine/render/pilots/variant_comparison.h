@@ -16,11 +16,11 @@ constexpr double shadow_ray_cost = 0.3;
 constexpr double dark_squared = 0.01; // as in relmse
 
 // A tile of a pilot rendered in one way.
-struct Variant {
+struct VariantTile {
     std::vector<Vec3d> means; // of the halves of each pixel, adjacent
     int64_t rays = 0, shadow_rays = 0, camera_rays = 0;
 };
-Variant render_variant(const KernelContext& context, const Kernel& kernel, const TileJob& tile, TileScratch& scratch);
+VariantTile render_variant(const KernelContext& context, const Kernel& kernel, const TileJob& tile, TileScratch& scratch);
 
 // Sums over pixels and channels of squared errors, and the work.
 //
@@ -32,11 +32,11 @@ struct VariantSums {
     VariantSums& operator+=(const VariantSums& more);
 };
 // `mean`: of the tile, over all of its variants. Leaves `work` to the caller.
-VariantSums sums_of(const Variant& v, const Vec3d& mean);
+VariantSums sums_of(const VariantTile& v, const Vec3d& mean);
 // Mean of a tile over its variants.
-Vec3d mean_of(std::span<const Variant* const> variants);
+Vec3d mean_of(std::span<const VariantTile* const> variants);
 // Rays traced, weighted by their usual time, without connections of path reuse. `ray_cost`: of a path's ray with its shading (ray_cost_of).
-double path_work(const Variant& v, double ray_cost);
+double path_work(const VariantTile& v, double ray_cost);
 double ray_cost_of(const KernelContext& context);
 
 // A tile in both ways.

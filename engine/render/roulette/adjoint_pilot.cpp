@@ -118,10 +118,10 @@ std::optional<FiguresOfRules> compare_rules(const KernelContext& full, int group
         const auto render = [&](const KernelContext& context) {
             return render_variant(context, kernel, tiles[size_t(i)], *scratch[worker]);
         };
-        const Variant without = render(by_throughput), adjoint = render(contexts[0]), efficiency = render(contexts[1]);
-        const std::array<const Variant*, 1 + learned_rules.size()> all{&without, &adjoint, &efficiency};
+        const VariantTile without = render(by_throughput), adjoint = render(contexts[0]), efficiency = render(contexts[1]);
+        const std::array<const VariantTile*, 1 + learned_rules.size()> all{&without, &adjoint, &efficiency};
         const Vec3d mean = mean_of(all);
-        const auto sums = [&](const Variant& v) {
+        const auto sums = [&](const VariantTile& v) {
             VariantSums s = sums_of(v, mean);
             s.work = path_work(v, ray_cost);
             return s;

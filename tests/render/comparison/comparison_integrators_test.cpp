@@ -209,7 +209,7 @@ TEST(LightProbes, HarmonicsAreOrthonormal) {
 }
 
 TEST(LightProbes, EvenRadianceGivesPiTimesIt) {
-    Probe probe;
+    LightProbe probe;
     probe.radiance[0] = Vec3d{1, 2, 3} / spherical_harmonics({0, 0, 1})[0];
     const Vec3d irradiance = probe.irradiance({0.6, 0, 0.8});
     EXPECT_NEAR(irradiance.x, std::numbers::pi, 1e-12);
