@@ -112,6 +112,7 @@ template <class F> struct WalkRound {
     Mask<F> begins;           // with a new seed
     Mask<F> missed;           // of these: a trial has failed
     Mask<F> ends, failed;     // the chain is complete; it cannot be continued
+    Mask<F> explored;         // of those that end: the surface behind their chain was met, too
     Int<F> part = Int<F>(-1); // of the event
 };
 
@@ -169,9 +170,10 @@ void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>&
     // The chain of an exploring walk ends before the first surface without an event.
     const Mask<F> explored = explore && !passed, empty = as_mask(w.events == 0);
     round.failed = (chained && !explore && !passed) || (explored && empty) || (explore && as_mask(w.events > max_chain_events));
-    round.ends = (explored && !empty && !round.failed) || (passed && !explore && as_mask(w.events == events_in_chain));
+    round.explored = explored && !round.failed;
+    round.ends = round.explored || (passed && !explore && as_mask(w.events == events_in_chain));
     w.chain = select(explored, Int<F>(w.chain | (w.events << chain_count_shift)), w.chain);
-    w.state = select(explored && !round.failed, Int<F>(solves), w.state);
+    w.state = select(round.explored, Int<F>(solves), w.state);
 }
 
 template <class F> F cos_at_light(const ManifoldColumns& c, const Walk<F>& w) {
@@ -294,7 +296,8 @@ void take_steps(const KernelContext& context, TileScratch& scratch, int bounce, 
     put<F>(c.step_v, w.index, step_v, lanes);
     put<F>(c.scale, w.index, scale, lanes);
 
-    const Mask<F> converged = better && end.error <= tolerance;
+    // Walks that have just explored take a step first: round.part is not of their chain.
+    const Mask<F> converged = better && end.error <= tolerance && !round.explored;
     const Mask<F> fails =
         traced && !converged && ((!better && (first || scale < F(least_scale))) || as_mask(iterations >= max_walk_iterations));
     if (any(converged)) converge<S, F>(context, scratch, end, bounce, converged, w, round);
@@ -313,7 +316,8 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] Mask<F> advance_w
                                                                                      const Mask<F>& active) {
     ManifoldColumns& c = *scratch.manifolds;
     Walk<F> w = load_walk<F>(c, index);
-    WalkRound<F> round{active, active, Mask<F>(false), Mask<F>(false), Mask<F>(false), Mask<F>(false)};
+    const Mask<F> none = Mask<F>(false);
+    WalkRound<F> round{active, active, none, none, none, none, none};
     const Mask<F> arrived = as_mask(w.state == int32_t(arrives));
     take_arrivals<F>(c, hit, w, round);
     round.active = active && !arrived;
