@@ -49,7 +49,7 @@ inline bool all(WideMask m) { return stdx::all_of(m); }
 inline unsigned bits(bool m) { return m; }
 inline unsigned bits(WideMask m) {
     const auto mask = m.__to_bitset().to_ulong();
-#ifdef __AVX512F__
+#if defined(__AVX512F__) && !defined(__clang__)
     // GCC 12 may store a mask as 16 bits and load it as 32, with what lies behind it on the stack. This instruction clears the others.
     unsigned all;
     asm("kmovw %1, %0" : "=r"(all) : "k"(static_cast<unsigned short>(mask)));
@@ -67,6 +67,13 @@ template <class T, class A> WideMask as_mask(stdx::simd_mask<T, A> m) { return s
 // ---- select: a where m, else b
 template <class T>
 requires std::is_arithmetic_v<T> T select(bool m, T a, T b) { return m ? a : b; }
+#if defined(__AVX512F__) && defined(__clang__)
+// With Clang 16, where() of libstdc++ 12 assigns the lanes that the mask leaves out.
+inline __mmask16 mmask(WideMask m) { return __mmask16(m.__to_bitset().to_ulong()); }
+inline Wide select(WideMask m, Wide a, Wide b) { return Wide(_mm512_mask_blend_ps(mmask(m), __m512(b), __m512(a))); }
+inline WideInt select(WideMask m, WideInt a, WideInt b) { return WideInt(_mm512_mask_blend_epi32(mmask(m), __m512i(b), __m512i(a))); }
+inline WideUInt select(WideMask m, WideUInt a, WideUInt b) { return WideUInt(_mm512_mask_blend_epi32(mmask(m), __m512i(b), __m512i(a))); }
+#else
 inline Wide select(WideMask m, Wide a, Wide b) {
     stdx::where(m, b) = a;
     return b;
@@ -79,6 +86,7 @@ inline WideUInt select(WideMask m, WideUInt a, WideUInt b) {
     stdx::where(stdx::__proposed::static_simd_cast<WideUInt::mask_type>(m), b) = a;
     return b;
 }
+#endif
 inline bool select(bool m, bool a, bool b) { return m ? a : b; }
 inline WideMask select(WideMask m, WideMask a, WideMask b) { return (m && a) || (!m && b); }
 

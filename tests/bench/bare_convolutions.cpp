@@ -1,12 +1,12 @@
 #include "tests/bench/bare_convolutions.h"
 
+#include "core/openmp.h"
 #include "tests/bench/bench.h"
 
 #include <oneapi/dnnl/dnnl.hpp>
 
 #include <algorithm>
 #include <cstring>
-#include <omp.h>
 #include <unordered_map>
 
 namespace blush::bench {

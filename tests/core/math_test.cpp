@@ -110,7 +110,7 @@ TEST(Math, LanesEqualOnePathBitForBit) {
     });
     expect_same_in_lanes<2>(-1, 1, [](auto x, auto y, auto) { return std::vector{atan2_turns(x, y), min(x, y), max(x, y), x / y}; });
     expect_same_in_lanes<3>(-1, 1, [](auto x, auto y, auto z) {
-        const Vec n = normalize(Vec{x, y, z});
+        const Vec n = normalize(Vec<decltype(x)>{x, y, z});
         const auto b = basis_around(n);
         return std::vector{n.x, n.y, n.z, b.s.x, b.s.y, b.s.z, b.t.x, b.t.y, b.t.z, luminance(n), max_component(n)};
     });

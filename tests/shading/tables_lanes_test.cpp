@@ -115,9 +115,9 @@ TEST(ShadingTables, EveryInstructionSetGivesTheSameBits) {
         Evaluate evaluate;
     };
     const Set sets[] = {{"baseline", true, evaluate_tables<Wide>},
-                        {"x86-64-v2", bool(__builtin_cpu_supports("x86-64-v2")), isa_v2::evaluate_tables_wide},
-                        {"x86-64-v3", bool(__builtin_cpu_supports("x86-64-v3")), isa_v3::evaluate_tables_wide},
-                        {"x86-64-v4", bool(__builtin_cpu_supports("x86-64-v4")), isa_v4::evaluate_tables_wide}};
+                        {"x86-64-v2", bool(__builtin_cpu_supports("sse4.2")), isa_v2::evaluate_tables_wide},
+                        {"x86-64-v3", bool(__builtin_cpu_supports("avx2")), isa_v3::evaluate_tables_wide},
+                        {"x86-64-v4", bool(__builtin_cpu_supports("avx512f")), isa_v4::evaluate_tables_wide}};
     for (const Set& set : sets) {
         if (!set.is_supported) continue;
         const std::vector<float> wide = run(set.evaluate, points);

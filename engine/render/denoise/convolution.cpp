@@ -1,9 +1,10 @@
 #include "render/denoise/convolution.h"
 
+#include "core/openmp.h"
+
 #include <oneapi/dnnl/dnnl.hpp>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 namespace blush::denoise {
 namespace {

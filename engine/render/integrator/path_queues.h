@@ -205,7 +205,6 @@ template <class F> void load_importance(const TileScratch& scratch, const SceneT
 // Replaces the camera rays in the queue by photons.
 inline void emit_photons(PhotonTrials& photons, PathQueue& q) {
     q.size = int(photons.emitted.size());
-    photons.events.assign(photons.emitted.size(), 0);
     for (int k = 0; k < q.size; ++k) {
         const EmittedPhoton& p = photons.emitted[size_t(k)];
         q.ox[k] = p.origin.x;

@@ -70,7 +70,7 @@ inline void stash_unshared_radiance(ReuseColumns& reuse, TileScratch& scratch, i
         for (double* c : {r, g, b}) std::fill_n(c, paths, 0.0);
     };
     stash(scratch.r, scratch.g, scratch.b, reuse.unshared);
-    reuse.unshared_groups.resize(scratch.groups ? scratch.groups->all.size() : 0);
+    reuse.hold_groups(scratch.groups ? scratch.groups->all.size() : 0);
     for (size_t k = 0; k < reuse.unshared_groups.size(); ++k) {
         RadianceColumns& group = scratch.groups->all[k];
         stash(group.r, group.g, group.b, reuse.unshared_groups[k]);

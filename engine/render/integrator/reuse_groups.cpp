@@ -1,6 +1,7 @@
 #include "render/integrator/reuse_groups.h"
 
 #include "core/sampler.h"
+#include "render/kernels/reuse_columns.h"
 
 #include <bit>
 
@@ -18,6 +19,8 @@ uint32_t permuted(uint32_t i, uint32_t count, uint64_t key) {
 }
 
 } // namespace
+
+void ReuseColumns::hold_groups(size_t count) { unshared_groups.resize(count); }
 
 BlockGroups::BlockGroups(const ReuseGroups& groups, int x, int y, int64_t sample) : groups_(groups) {
     const uint32_t block = pcg_hash(uint32_t(x) << 16 ^ uint32_t(y)) ^ pcg_hash(uint32_t(sample) ^ uint32_t(sample >> 32) * 0x9e3779b9u);

@@ -36,6 +36,9 @@ struct ReuseColumns {
     Column<int32_t> second_of;                    // by slot: position in the queue of bounce 1, -1: none
     ReuseVertexColumns second;                    // by position in that queue
     ReuseBatch batch;
+
+    // Sizes unshared_groups. Outside of the kernels: they must not hold a copy of std::vector's functions (core/isa.h).
+    void hold_groups(size_t count);
 };
 
 } // namespace blush

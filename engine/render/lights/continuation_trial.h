@@ -21,11 +21,12 @@ struct ContinuationTrial {
 struct ContinuationTrials {
     std::vector<ContinuationTrial> all;
 
-    // Call at the begin of a tile with so many slots.
-    void begin(int slots) { rays_.assign(size_t(slots), 0); }
+    // Call at the begin of a tile with so many slots. Outside of the kernels, which call it: they must not hold a copy of std::vector's
+    // functions (core/isa.h).
+    void begin(int slots);
     void note_ray(int slot) { ++rays_[size_t(slot)]; }
     // `throughput`: luminance, behind the vertex. Call after the ray to the vertex has been noted.
-    void add(const Vec3& position, const Vec3& normal, int slot, double throughput) {
+    [[gnu::always_inline]] void add(const Vec3& position, const Vec3& normal, int slot, double throughput) {
         all.push_back({position, normal, float(1 / throughput), float(rays_[size_t(slot)])});
         ahead_.add(slot);
     }

@@ -42,7 +42,7 @@ struct PhotonTrials {
     std::vector<EmittedPhoton> emitted; // by slot
     std::vector<GuidingTrial> arrived;
     std::vector<ChainPhoton> chains;
-    std::vector<int32_t> events; // by slot: those so far, the last first; -1: not all of them are of delta lobes
+    std::vector<int32_t> events; // by slot, at first 0: those so far, the last first; -1: not all of them are of delta lobes
 };
 
 // The trials of a tile's paths, accumulated.
@@ -50,7 +50,7 @@ struct GuidingTrials {
     std::vector<GuidingTrial> all;
 
     // `factor`: cosine over pdf of the direction and luminance of the throughput behind the vertex: what radiance is multiplied by.
-    void add(const GuidingTrial& trial, int slot, double factor) {
+    [[gnu::always_inline]] void add(const GuidingTrial& trial, int slot, double factor) {
         all.push_back(trial);
         factors_.push_back(factor);
         ahead_.add(slot);

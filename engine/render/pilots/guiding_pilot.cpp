@@ -129,6 +129,7 @@ std::shared_ptr<const CausticPhotons> trace_caustic_photons(KernelContext contex
         tile.photons = std::make_unique<PhotonTrials>();
         for (uint32_t k = 0; k < uint32_t(tile_capacity); ++k)
             tile.photons->emitted.push_back(source.emit(uint32_t(i) * uint32_t(tile_capacity) + k));
+        tile.photons->events.assign(tile.photons->emitted.size(), 0);
         kernel.render(context, {.x = int(i) * photon_tile, .y = 0, .width = photon_tile, .height = photon_tile}, tile);
         chains_of_tile[i] = std::move(tile.photons->chains);
         of_tile[i] = std::move(std::exchange(tile.photons, nullptr)->arrived);
