@@ -122,7 +122,14 @@ inline WideMask is_finite(Wide x) { return abs(x) <= 3.402823466e38f; }
 inline float to_float(int32_t i) { return float(i); }
 inline Wide to_float(WideInt i) { return stdx::static_simd_cast<Wide>(i); }
 inline int32_t to_int(float x) { return int32_t(x); }
-inline WideInt to_int(Wide x) { return stdx::static_simd_cast<WideInt>(x); }
+// Lanes without a path may hold numbers that no int has, which C++ leaves undefined: the instruction gives INT_MIN.
+#if defined(__AVX512F__)
+inline WideInt to_int(Wide x) { return WideInt(_mm512_cvttps_epi32(__m512(x))); }
+#elif defined(__AVX__)
+inline WideInt to_int(Wide x) { return WideInt(_mm256_cvttps_epi32(__m256(x))); }
+#else
+inline WideInt to_int(Wide x) { return WideInt(_mm_cvttps_epi32(__m128(x))); }
+#endif
 inline int32_t to_signed(uint32_t x) { return int32_t(x); }
 inline WideInt to_signed(WideUInt x) { return stdx::static_simd_cast<WideInt>(x); }
 inline uint32_t to_unsigned(int32_t x) { return uint32_t(x); }
