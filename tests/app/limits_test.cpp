@@ -271,7 +271,7 @@ std::string lit_triangle_file(const TemporaryFolder& folder, const Json& materia
     json["nodes"].push_back({{"translation", {0.3, 0.3, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     json["scenes"][0]["nodes"].push_back(2);
     json["meshes"][0]["primitives"][0]["material"] = 0;
-    json["materials"] = {material};
+    json["materials"].push_back(material); // not = {material}: Clang copies it, GCC makes an array
     std::ofstream(scene) << json;
     return scene;
 }

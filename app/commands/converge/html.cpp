@@ -147,7 +147,7 @@ std::string how_to_read(const ConvergeReport& report) {
     html += fmt::format(
         "<p>The bias test compares the means of the whole image and of a grid of regions with the reference, in units of the standard "
         "error of the "
-        "difference. Its false positive rate over all regions of a variant is {:g} % (Šidák correction). An image is "
+        "difference. Its false positive rate over all regions of a variant is at most {:g} % (Šidák correction). An image is "
         "not called biased "
         "if its missing light can be explained by rare bright samples, as bright as the brightest it has found. The bias per bounce of a "
         "biased "

@@ -50,11 +50,11 @@ struct BiasTest {
     std::string_view verdict() const { return biased ? "biased" : "unbiased-within-noise"; }
 };
 
-// Probability that the test of an unbiased image reports bias.
+// Largest probability that the test of an unbiased image reports bias.
 constexpr double bias_significance = 0.01;
 
 // Tests the whole image, unweighted and pooled, and a grid of at most 8 x 8 regions of at least about 16 x 16 pixels. The levels
-// are such that all tests together report bias of an unbiased image with probability bias_significance (Sidak 1967). Pooled
+// are such that all tests together report bias of an unbiased image with probability bias_significance at most (Sidak 1967). Pooled
 // regions are weighted by the inverse of their variance, so that noise at the edge of a light does not hide a bias elsewhere.
 // Only the reference determines the weights: an image that missed bright samples has little noise where it is too dark. The
 // variance of a region's mean is the maximum of three estimates: the sum of the variances of its pixels (with fully correlated

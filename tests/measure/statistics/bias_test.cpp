@@ -49,11 +49,18 @@ void add_rare_light(std::mt19937& bits, MeasuredImage& image) {
     }
 }
 
-TEST(BiasTest, FalseAlarmRateIsTheStatedLevel) {
+// Lower, as the variance of a region is the largest of three estimates: 0.7 % in 15,000 runs.
+TEST(BiasTest, FalseAlarmRateIsAtMostTheStatedLevel) {
     std::mt19937 bits(1);
-    Moments wrong;
-    for (int run = 0; run < 3000; ++run) wrong.add(test_bias(noisy(bits, 0.1f, 16, even), noisy(bits, 0.025f, 256, even)).biased);
-    EXPECT_TRUE(z_test(wrong, bias_significance));
+    Moments alarms, others;
+    for (int run = 0; run < 3000; ++run) {
+        const MeasuredImage image = noisy(bits, 0.1f, 16, even), reference = noisy(bits, 0.025f, 256, even);
+        const bool alarm = test_bias(image, reference).biased;
+        alarms.add(alarm);
+        others.add(!alarm);
+    }
+    EXPECT_TRUE(z_test_at_most(alarms, bias_significance));
+    EXPECT_TRUE(z_test_at_most(others, 1 - bias_significance / 2)) << "too few alarms";
 }
 
 TEST(BiasTest, DetectsTwoPercentGlobalBias) {

@@ -66,7 +66,8 @@ TEST(GltfInstancing, HostileInstancesAreRefusedOrReported) {
     const auto with = [](const auto& attributes) {
         GltfBuilder b;
         const int two = b.accessor<float>({0, 0, 0, 1, 1, 1}, "VEC3"), three = b.accessor<float>({0, 0, 0, 1, 1, 1, 2, 2, 2}, "VEC3");
-        return import_built(with_copies(b, attributes(b, two, three)));
+        const Json built = attributes(b, two, three);
+        return import_built(with_copies(b, built));
     };
     EXPECT_NE(error_text(with([](auto&, int two, int three) {
                   return Json{{"TRANSLATION", two}, {"SCALE", three}};
