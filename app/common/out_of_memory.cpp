@@ -1,5 +1,6 @@
 // Replaces operator new: its std::bad_alloc says how much memory was requested and what the process limit is.
 #include "core/memory_limit.h"
+#include "core/sanitized.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +8,7 @@
 #include <new>
 
 // Sanitizers have their own operator new.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BLUSH_SANITIZED
 
 namespace {
 

@@ -1,4 +1,5 @@
 // Lack of memory, threads or disk space ends with one error line and exit code 1; warnings about what an image cannot show.
+#include "core/sanitized.h"
 #include "io/image/image_io.h"
 #include "io/image/jpeg_encoding.h"
 #include "tests/app/program.h"
@@ -40,7 +41,7 @@ std::vector<std::string> small_render(const std::string& output, const std::stri
 }
 
 // Sanitizers reserve more address space than these limits.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BLUSH_SANITIZED
 TEST(Limits, OutOfMemoryIsOneLine) {
     const TemporaryFolder folder;
     int refused = 0;

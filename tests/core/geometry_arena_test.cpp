@@ -2,6 +2,7 @@
 #include "core/geometry_arena.h"
 #include "core/geometry_array.h"
 
+#include "core/sanitized.h"
 #include "core/vec.h"
 
 #include <gtest/gtest.h>
@@ -93,7 +94,7 @@ TEST(GeometryArena, VectorsUseTheArenaOnlyForTheReservedSize) {
     EXPECT_EQ(assigned, copy);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more address space themselves
+#ifndef BLUSH_SANITIZED // which need more address space themselves
 TEST(GeometryArenaDeathTest, NoRangesWithoutAddressSpace) {
     GTEST_FLAG_SET(death_test_style, "threadsafe"); // a separate process without reserved addresses
     const auto with_few_addresses = [] {

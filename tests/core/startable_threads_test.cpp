@@ -1,6 +1,8 @@
 // The number of threads under limits on memory and processes, which are set in child processes.
 #include "core/startable_threads.h"
 
+#include "core/sanitized.h"
+
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -31,7 +33,7 @@ TEST(StartableThreads, AreAsManyAsWantedWithoutLimits) {
 }
 
 // Sanitizers reserve more address space and start threads of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef BLUSH_SANITIZED
 constexpr unsigned wanted = 200; // more than any other test of this process has started
 
 // True if this thread and others, `count` in all, run at the same time.

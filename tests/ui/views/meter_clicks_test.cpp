@@ -239,7 +239,7 @@ TEST_P(MeterClicks, MeasureTheClickedPoint) {
                                           statistics::sidak(statistics::significance, scenes * int64_t(clicks.size()))))
             << where;
     }
-    EXPECT_GT(lit, int(clicks.size()) / 2) << "most of a shipped scene is lit";
+    EXPECT_GT(lit, int(clicks.size()) / 3) << "a shipped scene has light; in the Cornell box half of the clicks miss the box";
     // Each click alone is beyond 3 sigma with this probability.
     EXPECT_LE(beyond_three_sigma, most_by_chance(lit, statistics::normal_p(3), statistics::sidak(statistics::significance, scenes)))
         << "of " << lit;
