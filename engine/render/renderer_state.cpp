@@ -48,7 +48,7 @@ Renderer::State::Outdated Renderer::State::compile(const Scene& whole, const Ren
     field_effect = {};
     field_effect.dropped = true;
     if (changes && options.begins_trained && learned.has_kept())
-        field_effect = effect_on_field(*expanded, now_expanded, *changes, scene.tables().guides.casters, scene.origin());
+        field_effect = effect_on_field(*expanded, now_expanded, *changes, scene.tables().casters, scene.origin());
     if (!changes || !keeps_first_hits(*expanded, now_expanded, *changes)) first_hits.reset();
     if (groups) scene.aim(mixing.gains);
     expanded = std::move(now_expanded);
@@ -133,6 +133,10 @@ const CompiledInfo& Renderer::info() {
     if (!s.info) {
         s.info = s.scene.info();
         s.info->kernel = s.kernel_name;
+        if (const std::string& missing =
+                s.scene.missing_light(s.learned.light_paths().may_be_used() ? CausticFinders::light_paths : CausticFinders::none);
+            !missing.empty())
+            s.info->warnings.push_back({Diagnostic::Severity::warning, missing, ""});
         s.info->seconds_setup = s.seconds_setup;
     }
     s.info->features = *feature_report();
@@ -197,7 +201,7 @@ void Renderer::resolve(Frame& frame) {
     frame.health.truncated = s.truncated;
     frame.kernel = s.kernel_name;
     frame.feature_report = feature_report();
-    frame.missing_light = s.scene.missing_light();
+    frame.missing_light = s.scene.missing_light(s.caustic_finders());
     frame.warnings = s.scene.warnings();
 }
 
@@ -216,7 +220,7 @@ ErrorEstimate Renderer::estimate_error() {
     ErrorEstimate error = s.correlates_pixels() ? s.film.estimate_error(s.workers, measure_block_covariance(s.film).products)
                                                 : blush::estimate_error(s.film, group_size, s.workers);
     // Both halves miss the same light, so their difference does not show that error.
-    if (!s.scene.missing_light().empty()) {
+    if (!s.scene.missing_light(s.caustic_finders()).empty()) {
         error.known = error.known && error.high > 0;
         error.rmse_known = error.rmse_known && error.rmse_high > 0;
     }

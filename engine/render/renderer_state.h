@@ -165,6 +165,10 @@ struct Renderer::State {
         if (options.allocation && divider == 1) sample_allocation.restore(*options.allocation);
         film_is_stale = false;
     }
+    CausticFinders caustic_finders() const {
+        if (!splats) return CausticFinders::none;
+        return learned.uses_manifolds() ? CausticFinders::light_paths_and_manifolds : CausticFinders::light_paths;
+    }
     // For a film without samples, once the pilots have decided.
     void begin_splats() {
         if (splats == learned.light_paths().pays()) return;

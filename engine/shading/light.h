@@ -39,6 +39,10 @@ struct alignas(128) LightRecord {
     float cone_height; // sun: 1 - cos of its angular radius; 0 is a parallel beam
 };
 static_assert(offsetof(LightRecord, part) == 64);
+// True for lights that no ray can hit.
+inline bool has_zero_size(const LightRecord& light) {
+    return LightKind(light.kind) == LightKind::point || (LightKind(light.kind) == LightKind::sun && !(light.cone_height > 0));
+}
 enum LightFlag : int32_t {
     light_two_sided = 1,
     light_varying = 2,  // emission or alpha vary over the triangle

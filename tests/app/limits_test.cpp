@@ -304,15 +304,13 @@ TEST(Warnings, LightThatCannotBeFound) {
 // As text and as JSON: which light, by which paths, and what to do.
 TEST(Warnings, InfoNamesLightThatCannotBeFound) {
     const TemporaryFolder folder;
-    const std::string begin = "some light cannot be found: that of point, spot and sun lights of zero size, ",
+    const std::string begin = "some light cannot be found: caustics of point, spot and sun lights of zero size, where they are seen ",
                       end = "; give these lights a radius or an angle, or the material some roughness";
     const struct {
         Json material;
         std::string paths; // empty: all light is found
-    } cases[]{{glass(0), "through smooth glass or by reflection in smooth surfaces"},
-              {mirror(0), "by reflection in smooth surfaces"},
-              {glass(0.5), ""},
-              {mirror(0.5), ""}};
+    } cases[]{
+        {glass(0), "through smooth glass or in smooth surfaces"}, {mirror(0), "in smooth surfaces"}, {glass(0.5), ""}, {mirror(0.5), ""}};
     for (const auto& [material, paths] : cases) {
         const std::string scene = lit_triangle_file(folder, material), warning = begin + paths + end;
         const Finished text = test::blush({"info", scene});

@@ -107,6 +107,25 @@ Findings beside_the_critical_angle(float ior, double off_degrees) {
     return whole(render(scene, settings_for(16, 16, 128)), seen(cos), rounding);
 }
 
+// ---- lights without size
+
+// A floor under a plate of glass and a parallel sun: no ray hits it, and no shadow ray passes the plate. Both faces together transmit
+// (1 - F)^2; longer paths are cut off.
+Findings sun_through_solid_glass() {
+    constexpr double reflectance = 0.04, passes = (1 - reflectance) * (1 - reflectance);
+    Scene scene;
+    place(scene, floor_quad(0.9f), lambert(0.5f));
+    place(scene, cube(false), glass(0, 1.5f), box({0, 1.1f, 0}, {1, 0.1f, 1}));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = float(std::numbers::pi);
+    place_light(scene, sun, aimed({0, 5, 0}, {0, -1, 0}));
+    scene.view = looking_down(0.5f, 0.5f);
+    RenderSettings settings = settings_for(16, 16, 64);
+    settings.max_bounces = 3;
+    return whole(render_anything(scene, settings), 0.5 * passes);
+}
+
 } // namespace
 
 std::vector<StabilityCase> dielectric_cases() {
@@ -128,6 +147,7 @@ std::vector<StabilityCase> dielectric_cases() {
         cases.push_back({fmt::format("camera within glass of ior {}", ior), nested_solids, [ior] { return within_glass(ior); }});
     cases.push_back({"50 interfaces, one behind another", nested_solids, [] { return stack_of_panes(25); }});
     cases.push_back({"50 interfaces around each other in a furnace", nested_solids, [] { return shells_in_furnace(25); }});
+    cases.push_back({"floor under solid glass and a parallel sun", densities, sun_through_solid_glass});
     return cases;
 }
 

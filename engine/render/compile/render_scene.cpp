@@ -69,16 +69,21 @@ void RenderScene::aim(std::span<const Vec3> gains) {
     lights_.fill(tables_.lights);
 }
 
-// Casters only matter if rays can find light. Strategy::bsdf and CausticStrategy::off exclude caustic guiding.
+// Strategy::bsdf and CausticStrategy::off exclude casters. Diffuse surfaces sample directions towards them only if rays can find light
+// there. Panes reflect so little that only small lights are worth it.
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
-    const bool found = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty();
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
-    const bool guides = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
-    const bool wanted = guides && (found || narrow_sky);
-    if (!changed_.objects && !changed_.origin && !changed_.casters && wanted == has_casters_) return;
-    has_casters_ = wanted;
-    caustic_casters_.build(scene, objects_, extent_.origin, wanted);
-    tables_.guides.casters = caustic_casters_.tables();
+    const bool can_be_hit = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty() || narrow_sky;
+    const bool small = lights_.sphere_lights + lights_.point_lights + lights_.sun_lights > 0;
+    const bool allowed = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
+    const CausticCasterTable::Wanted wanted{.mirrors_and_glass = allowed && (can_be_hit || small), .panes = allowed && small};
+    if (changed_.objects || changed_.origin || changed_.casters || wanted != wanted_casters_) {
+        wanted_casters_ = wanted;
+        caustic_casters_.build(scene, objects_, extent_.origin, wanted);
+    }
+    tables_.casters = caustic_casters_.mirrors_and_glass();
+    tables_.emission_casters = caustic_casters_.tables();
+    tables_.guides.casters = can_be_hit ? tables_.casters : CausticCasterTables{};
 }
 
 // Records of emissive meshes, if these, their materials or area lights changed.
@@ -133,7 +138,8 @@ void RenderScene::update_lights(const Scene& scene, const RenderSettings& settin
     const bool same_parts = !changed_.objects && !changed_.area_lights;
     links_ = build_light_links(scene, lights_, geometry_, casters_, same_parts ? links_ : LightLinks{});
     tables_.links = links_.empty() ? LinkTables{} : links_.tables();
-    missing_light_ = blush::missing_light(scene, light_nodes_, used_.smooth);
+    for (size_t i = 0; i < missing_light_.size(); ++i)
+        missing_light_[i] = blush::missing_light(scene, light_nodes_, used_.smooth, CausticFinders(i));
 }
 
 Features RenderScene::compute_features(const Scene& scene, const RenderSettings& settings) const {

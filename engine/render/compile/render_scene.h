@@ -22,6 +22,7 @@
 #include "render/lights/mesh_lights.h"
 #include "render/materials/material_table.h"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -62,10 +63,10 @@ public:
     // True if a camera ray may end at something that emits light, or is unlit.
     bool camera_sees_emission() const;
     // See missing_light.h.
-    const std::string& missing_light() const { return missing_light_; }
+    const std::string& missing_light(CausticFinders finders) const { return missing_light_[size_t(finders)]; }
     // Of the last update.
     const std::shared_ptr<const std::vector<Diagnostic>>& warnings() const { return warnings_; }
-    // Everything except the kernel and the feature report.
+    // Everything except the kernel, the feature report and light that is missing.
     CompiledInfo info() const;
     // `expanded`: the scene of the last update(); `film`: the film that is rendered to.
     FeatureReport feature_report(const Scene& expanded, const FilmSize& film) const;
@@ -142,13 +143,13 @@ private:
     std::vector<int32_t> group_of_light_, group_of_part_; // empty: no light mix
     EnvironmentTable environment_;
     CausticCasterTable caustic_casters_;
-    bool has_casters_ = false; // as `wanted` of caustic_casters_
+    CausticCasterTable::Wanted wanted_casters_; // in caustic_casters_
     Accel accel_;
     SceneTables tables_;
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
-    NeeLights aim_ = NeeLights::all_lights; // as passed last time
-    std::string missing_light_;
+    NeeLights aim_ = NeeLights::all_lights;                   // as passed last time
+    std::array<std::string, 3> missing_light_;                // by CausticFinders
     std::shared_ptr<const std::vector<Diagnostic>> warnings_; // replaced if they change; never null after an update
 };
 

@@ -199,10 +199,10 @@ void add_lights(FeatureReport& feature_report, const LightTable& lights, const E
 FeatureReport RenderScene::feature_report(const Scene& expanded, const FilmSize& film) const {
     FeatureReport feature_report;
     add_kernel(feature_report, features_);
-    const size_t casters = caustic_casters_.spheres().size();
+    const int32_t casters = tables_.guides.casters.count;
     feature_report.push_back({"kernel", "caustic guiding", casters > 0,
                               casters > 0 ? fmt::format("mirrors or glass in {} place{}", casters, casters == 1 ? "" : "s")
-                                          : "no mirror or glass has light to focus"});
+                                          : why_no_guides(tables_.guides.casters, tables_.emission_casters)});
     add_film(feature_report, film);
     add_vertices(feature_report, geometry_, needs_);
     add_tracer(feature_report, accel_.small_scene());

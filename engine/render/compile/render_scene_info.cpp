@@ -57,7 +57,6 @@ CompiledInfo RenderScene::info() const {
     info.materials = int64_t(materials_.ids.size());
     info.textures = int64_t(materials_.textures.records.size());
     if (warnings_) info.warnings = *warnings_;
-    if (!missing_light_.empty()) info.warnings.push_back({Diagnostic::Severity::warning, missing_light_, ""});
     info.environment = lights_.environment >= 0;
     info.emissive_triangles = lights_.emissive_triangles;
     info.point_lights = lights_.point_lights;

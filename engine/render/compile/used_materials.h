@@ -13,10 +13,11 @@ namespace blush {
 struct UsedMaterials {
     // All lists are in id order, each id once; 0 is glTF's default material.
     std::vector<Id<Material>> ids;
-    std::vector<Id<Material>> alpha;    // not opaque
-    std::vector<Id<Material>> emissive; // their triangles are lights
-    std::vector<Id<Material>> casters;  // of caustics
-    std::set<int> uv_sets;              // that their textures read
+    std::vector<Id<Material>> alpha;        // not opaque
+    std::vector<Id<Material>> emissive;     // their triangles are lights
+    std::vector<Id<Material>> casters;      // of caustics
+    std::vector<Id<Material>> pane_casters; // see reflects_as_pane()
+    std::set<int> uv_sets;                  // that their textures read
     bool tangents = false;
     bool blends = false;     // some is neither opaque nor masked
     bool panes = false;      // light may pass one straight through (thin_transmission.h)

@@ -35,7 +35,7 @@ public:
     // light that paths cannot find (missing_light.h), empty: none; whether anything emits light.
     const LightGroups& lights() const { return groups_; }
     const Vec3d& origin() const { return compiled_.origin(); }
-    const std::string& missing_light() const { return compiled_.missing_light(); }
+    const std::string& missing_light() const { return compiled_.missing_light(CausticFinders::none); }
     bool has_light() const { return compiled_.has_light(); }
 
 private:

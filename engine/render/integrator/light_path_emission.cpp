@@ -37,14 +37,16 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
     const double emission = double(luminance(light.emission));
     switch (LightKind(light.kind)) {
     case LightKind::triangle: return flux_of_triangle(light, caster);
-    // As of a parallel sun. No camera path finds the caustics of lights without size: the image would have them or not as the pilot
-    // decides.
-    case LightKind::point: return 0;
+    case LightKind::point: {
+        const double all = 4 * double(pi) * emission;
+        return d2 > r2 ? std::min(all, emission * disk / d2) : all;
+    }
     case LightKind::sphere: {
         const double all = 4 * double(pi) * double(pi) * emission * double(light.radius) * double(light.radius);
         return d2 > r2 ? std::min(all, all / (4 * double(pi)) * disk / d2) : all;
     }
-    case LightKind::sun: return emission * disk * 2 * double(pi) * double(light.cone_height);
+    // The irradiance of a parallel sun.
+    case LightKind::sun: return emission * disk * (light.cone_height > 0 ? 2 * double(pi) * double(light.cone_height) : 1);
     case LightKind::environment: return sky * disk;
     }
     return 0;
@@ -111,7 +113,7 @@ Vec3 sample_direction(const LightPoint<float>& p, const CasterSphere& caster, bo
 } // namespace
 
 LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits)
-    : casters_(tables.guides.casters), scene_(scene), lights_(tables.lights.count) {
+    : casters_(tables.emission_casters), scene_(scene), lights_(tables.lights.count) {
     const size_t columns = size_t(casters_.count) + 1;
     if (casters_.count == 0 || lights_ == 0 || int64_t(lights_) * int64_t(columns) > max_pairs) return;
     const double sky = integral_of_environment(tables);
@@ -125,6 +127,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
             if (!std::isfinite(f)) f = 0;
             (k + 1 < columns ? aimed : all) += f;
+            has_zero_size_lights_ |= k + 1 < columns && f > 0 && has_zero_size(light);
         }
     }
     if (!(aimed > 0 && all > 0)) return;
@@ -136,14 +139,10 @@ LightPathEmission LightPathEmission::of_all_lights(const SceneTables& tables, co
     LightPathEmission emission;
     emission.scene_ = scene;
     emission.lights_ = tables.lights.count;
-    const double sky = integral_of_environment(tables), disk = double(pi) * double(scene.radius) * double(scene.radius);
+    const double sky = integral_of_environment(tables);
     std::vector<double> flux;
     for (int32_t i = 0; i < tables.lights.count; ++i) {
-        const LightRecord& light = tables.lights.lights[i];
-        const double amount = double(luminance(light.emission)); // point: intensity; parallel sun: irradiance
-        double f = flux_of_pair(light, scene, sky);
-        if (LightKind(light.kind) == LightKind::point) f = 4 * double(pi) * amount;
-        if (LightKind(light.kind) == LightKind::sun && !(light.cone_height > 0)) f = disk * amount;
+        const double f = flux_of_pair(tables.lights.lights[i], scene, sky);
         flux.push_back(std::isfinite(f) ? f : 0);
     }
     if (std::ranges::any_of(flux, [](double f) { return f > 0; })) emission.set_chances(flux);

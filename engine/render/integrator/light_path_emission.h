@@ -18,15 +18,17 @@ public:
     static constexpr int64_t max_pairs = 1 << 20;
 
     LightPathEmission() = default;
-    // For lights with a size that NEE can sample, of these those for which `emits(record)` is true. `scene`: contains all surfaces. Empty
-    // if no light reaches a caster, or there are too many pairs.
+    // For lights that NEE can sample, of these those for which `emits(record)` is true. `scene`: contains all surfaces. Empty if no light
+    // reaches a caster, or there are too many pairs.
     LightPathEmission(
         const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits = [](int32_t) { return true; });
 
-    // For all lights, also those without size, towards the whole scene: for photon maps (photon_map.h).
+    // For all lights, towards the whole scene: for photon maps (photon_map.h).
     static LightPathEmission of_all_lights(const SceneTables& tables, const CasterSphere& scene);
 
     bool empty() const { return chances_.empty(); }
+    // True if some light without size reaches a caster: no other strategy finds its caustics.
+    bool has_zero_size_lights() const { return has_zero_size_lights_; }
     // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
     EmissionTables tables(float paths) const;
     // Random numbers of an emission: choose the light and its caster, the point of the light, and the direction.
@@ -50,6 +52,7 @@ private:
     CausticCasterTables casters_;
     CasterSphere scene_{};
     int32_t lights_ = 0;
+    bool has_zero_size_lights_ = false;
 };
 
 // Light paths [first, first + count) of pass `pass` of an image of `paths_per_pass` paths a pass; the passes of a half have one sequence of

@@ -217,7 +217,8 @@ inline void emit_photons(PhotonTrials& photons, PathQueue& q) {
     }
 }
 // Records photons that smooth lobes have sent to diffuse surfaces: those that go on from there with the density of a diffuse lobe.
-template <class F> void record_photons(PhotonTrials& photons, const Path<F>& path, const Step<F>& step, int bounce, const Mask<F>& lanes) {
+template <class F> void record_photons(const LightTables& lights, PhotonTrials& photons, const Path<F>& path, const Step<F>& step,
+                                       int bounce, const Mask<F>& lanes) {
     const Path<F>& next = step.next;
     const Mask<F> diffuse = next.pdf <= F(1.001f * inv_pi),
                   arrived = lanes && path.pdf > F(min_focused_pdf) && diffuse && Mask<F>(bounce > 0);
@@ -227,10 +228,12 @@ template <class F> void record_photons(PhotonTrials& photons, const Path<F>& pat
         const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
         int32_t& events = photons.events[size_t(lane(path.slot, i))];
         if (arrived_lanes >> i & 1) {
-            photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
+            const int32_t light = photons.emitted[size_t(lane(path.slot, i))].light;
+            if (!has_zero_size(lights.lights[light])) // path guiding samples directions of lights that rays can hit
+                photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
             if (events > 0)
-                photons.chains.push_back({at(next.ray.origin), at(next.normal), at(path.ray.origin), events,
-                                          photons.emitted[size_t(lane(path.slot, i))].light, luminance(at(path.beta))});
+                photons.chains.push_back(
+                    {at(next.ray.origin), at(next.normal), at(path.ray.origin), events, light, luminance(at(path.beta))});
         }
         const int32_t count = events >> chain_count_shift;
         if (events < 0 || !(delta >> i & 1) || internal >> i & 1 || count == max_chain_events)

@@ -222,7 +222,7 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if (scratch.guiding) record_guiding<F>(*scratch.guiding, step.next, step.continues);
         if (scratch.arrivals) record_arrivals<F>(*scratch.arrivals, path, load_hit<F>(scratch.hits, k), active);
         if (scratch.continuations) record_continuations<F>(*scratch.continuations, path, step.next, step.continues, active);
-        if (scratch.photons) record_photons<F>(*scratch.photons, path, step, bounce, step.continues);
+        if (scratch.photons) record_photons<F>(context.scene->lights, *scratch.photons, path, step, bounce, step.continues);
         if (any(step.continues)) append<S, F>(next, step.next, step.continues);
     }
     return light_timer.estimate();

@@ -15,6 +15,8 @@ constexpr float max_caster_roughness = 0.2f;
 // Minimal share of specular reflection or refraction in a material's light; less is not visible next to the diffuse part.
 constexpr float min_specular_share = 0.5f;
 
+bool is_narrow(const Material& m) { return m.roughness <= max_caster_roughness && !m.unlit && m.alpha == Material::Alpha::opaque; }
+
 // Upper bound of the scale factor of a transform: exact for rotations with uniform scale, else the Frobenius norm.
 double max_scale(const Affined& a) {
     const double x = dot(a.x, a.x), y = dot(a.y, a.y), z = dot(a.z, a.z), largest = std::max({x, y, z});
@@ -25,9 +27,15 @@ double max_scale(const Affined& a) {
 } // namespace
 
 bool casts_caustics(const Material& m) {
-    const bool narrow = m.roughness <= max_caster_roughness && !m.unlit && m.alpha == Material::Alpha::opaque;
     const float refracts = m.thickness > 0 ? m.transmission : 0; // thin walls do not bend light (thin_transmission.h)
-    return narrow && std::max(m.metallic, refracts) >= min_specular_share;
+    return is_narrow(m) && std::max(m.metallic, refracts) >= min_specular_share;
+}
+
+bool reflects_as_pane(const Material& m) { return is_narrow(m) && !casts_caustics(m) && m.transmission >= min_specular_share; }
+
+const char* why_no_guides(const CausticCasterTables& guides, const CausticCasterTables& all) {
+    if (guides.count > 0) return nullptr;
+    return all.count > 0 ? "no mirror or solid glass has light to focus that rays can hit" : "no mirror or glass has light to focus";
 }
 
 GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
@@ -38,13 +46,15 @@ GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
     return sphere;
 }
 
-void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted) {
+void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted) {
     std::map<uint64_t, GeometryBoundingSphere> used;
-    spheres_.clear();
+    std::vector<CasterSphere> mirrors_and_glass, panes;
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             const Material* material = scene.materials.find(part.material);
-            if (!wanted || !material || !casts_caustics(*material)) continue;
+            if (!material) continue;
+            const bool focuses = wanted.mirrors_and_glass && casts_caustics(*material);
+            if (!focuses && !(wanted.panes && reflects_as_pane(*material))) continue;
             const uint64_t serial = part.geometry->serial;
             if (!used.contains(serial)) {
                 const auto known = by_serial_.find(serial);
@@ -57,12 +67,17 @@ void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject
                 // Slightly enlarged against rounding.
                 const double radius = sphere.radius * max_scale(world_from_copy) * (1 + 1e-5);
                 if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center)))
-                    spheres_.push_back({to_float(center), float(radius)});
+                    (focuses ? mirrors_and_glass : panes).push_back({to_float(center), float(radius)});
             }
         }
     by_serial_ = std::move(used);
-    std::ranges::stable_sort(spheres_, std::greater<>(), &CasterSphere::radius);
-    spheres_.resize(std::min(spheres_.size(), max_casters));
+    spheres_.clear();
+    for (auto* kind : {&mirrors_and_glass, &panes}) {
+        std::ranges::stable_sort(*kind, std::greater<>(), &CasterSphere::radius);
+        kind->resize(std::min(kind->size(), max_casters - spheres_.size()));
+        spheres_.insert(spheres_.end(), kind->begin(), kind->end());
+    }
+    mirrors_and_glass_ = int32_t(mirrors_and_glass.size());
 }
 
 } // namespace blush

@@ -1,5 +1,5 @@
-// Table of caustic casters: bounding spheres of specular objects,
-// towards which diffuse surfaces sample directions (shading/caustic_guiding.h).
+// Table of caustic casters: bounding spheres of specular objects. Diffuse surfaces sample directions towards them
+// (shading/caustic_guiding.h), and lights emit light paths towards them (shading/light_emission.h).
 #pragma once
 
 #include "render/compile/object_list.h"
@@ -14,6 +14,8 @@ namespace blush {
 
 // True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool casts_caustics(const Material& material);
+// True for smooth window glass: it focuses nothing, but what it reflects of small lights is found by light paths alone.
+bool reflects_as_pane(const Material& material);
 
 // Bounding sphere of a geometry, in object space.
 struct GeometryBoundingSphere {
@@ -22,18 +24,29 @@ struct GeometryBoundingSphere {
 };
 GeometryBoundingSphere bounding_sphere(const Geometry& geometry);
 
+// Why no surface samples directions towards `guides`, the casters by which rays can find light; null if there are some. `all`: with those
+// towards which only light paths are emitted.
+const char* why_no_guides(const CausticCasterTables& guides, const CausticCasterTables& all);
+
 // Builds the list without reading all vertices at each edit: caches the spheres of geometries.
 class CausticCasterTable {
 public:
     static constexpr size_t max_casters = 8; // the largest ones; every diffuse vertex loops over all of them
 
-    // `objects` in their traced form; positions are relative to `origin`. Empty if `wanted` is false.
-    void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, bool wanted);
+    // Which casters an image needs.
+    struct Wanted {
+        bool mirrors_and_glass = false, panes = false;
+        bool operator==(const Wanted&) const = default;
+    };
+    // `objects` in their traced form; positions are relative to `origin`.
+    void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted);
+    // Mirrors and glass, then panes.
     CausticCasterTables tables() const { return {spheres_.data(), int32_t(spheres_.size())}; }
-    const std::vector<CasterSphere>& spheres() const { return spheres_; }
+    CausticCasterTables mirrors_and_glass() const { return {spheres_.data(), mirrors_and_glass_}; }
 
 private:
     std::vector<CasterSphere> spheres_;
+    int32_t mirrors_and_glass_ = 0;
     std::map<uint64_t, GeometryBoundingSphere> by_serial_;
 };
 

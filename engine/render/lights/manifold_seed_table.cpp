@@ -44,13 +44,14 @@ bool overlaps_another_sun(const LightTables& lights, const LightRecord& sun) {
     return false;
 }
 
-// Lights that rays can hit and whose points can be sampled evenly. Not those of surfaces that have specular events themselves: a chain
+// Lights whose points can be sampled evenly. Not those of surfaces that have specular events themselves: a chain
 // would not know where it ends.
 bool ends_chains(const SceneTables& scene, const LightRecord& light) {
     switch (LightKind(light.kind)) {
     case LightKind::triangle: return !(scene.materials.materials[scene.parts[light.part].material].flags & material_chains);
+    case LightKind::point:
     case LightKind::sphere: return true;
-    case LightKind::sun: return light.cone_height > 0 && !overlaps_another_sun(scene.lights, light);
+    case LightKind::sun: return has_zero_size(light) || !overlaps_another_sun(scene.lights, light);
     default: return false;
     }
 }

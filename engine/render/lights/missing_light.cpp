@@ -5,6 +5,7 @@
 #include "shading/microfacet.h"
 
 #include <algorithm>
+#include <string>
 
 namespace blush {
 namespace {
@@ -41,11 +42,18 @@ int count_zero_size_lights(const Scene& scene, const std::vector<Id<Node>>& node
     }));
 }
 
-std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces) {
+std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces, CausticFinders finders) {
     if (!surfaces.mirror || count_zero_size_lights(scene, nodes) == 0) return {};
-    const char* by = surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces";
-    return std::string("some light cannot be found: that of point, spot and sun lights of zero size, ") + by +
-           "; give these lights a radius or an angle, or the material some roughness";
+    std::string which;
+    if (finders == CausticFinders::none)
+        which = std::string("that of point, spot and sun lights of zero size, ") +
+                (surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces");
+    else
+        which = std::string("caustics of point, spot and sun lights of zero size, where they are seen ") +
+                (surfaces.glass ? "through smooth glass or in smooth surfaces" : "in smooth surfaces");
+    if (finders == CausticFinders::light_paths_and_manifolds)
+        which += " and come by way of more than six surfaces, or by reflections within glass";
+    return "some light cannot be found: " + which + "; give these lights a radius or an angle, or the material some roughness";
 }
 
 } // namespace blush

@@ -1,5 +1,6 @@
 // Detects light that the path tracer cannot find: neither NEE nor BSDF sampling finds a light of zero size through a delta lobe
-// (Veach 1997, section 8.3.2: paths of the form L D S+ ...). It is missing from the image and from its error estimate.
+// (Veach 1997, section 8.3.2: paths of the form L S+ D ...). Light paths find it, but for what the camera sees through delta lobes
+// (L S+ D S+ E), and manifold sampling most of that. The rest is missing from the image and from its error estimate.
 #pragma once
 
 #include "scene/scene.h"
@@ -19,8 +20,10 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
 // Number of enabled, visible lights without a size, which no ray hits: point and spot lights without radius, suns without angle.
 // `nodes`: those with lights (expanded_lights.h).
 int count_zero_size_lights(const Scene& scene, const std::vector<Id<Node>>& nodes);
+// What finds such light.
+enum class CausticFinders { none, light_paths, light_paths_and_manifolds };
 // User message about the missing light and how to get it back; empty if all light can be found. `nodes`: those with lights
 // (expanded_lights.h).
-std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces);
+std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces, CausticFinders finders);
 
 } // namespace blush

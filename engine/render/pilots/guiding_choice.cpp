@@ -12,7 +12,7 @@ namespace {
 // Why path guiding cannot gain anything; null if it may.
 const char* why_no_guiding(const RenderSettings& settings, const RenderScene& scene) {
     if (const char* why = why_excluded(settings, CausticStrategy::guiding)) return why;
-    if (scene.tables().guides.casters.count == 0) return "no mirror or glass has light to focus";
+    if (const char* why = why_no_guides(scene.tables().guides.casters, scene.tables().emission_casters)) return why;
     if (!scene.may_be_lambertian()) return "no surface is Lambertian";
     if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";
     return nullptr;

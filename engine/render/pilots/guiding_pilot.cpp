@@ -23,9 +23,9 @@ constexpr float far_radii = 64;
 
 enum PhotonDimension : uint32_t { caster_dimension, photon_light_dimension, target_dimension };
 
-// Luminance that arrives at `to` from the sampled light, over its density: nits sr; 0 for lights that paths cannot hit.
+// Luminance that arrives at `to` from the sampled light, over its density: nits sr.
 float irradiance_of(const SceneTables& scene, const LightPoint<float>& light, const Vec3& to) {
-    if (!light.valid || light.delta) return 0;
+    if (!light.valid) return 0;
     const Vec3 to_light = light.infinite ? light.position : light.position - to;
     const IncidentLight<float> in = incident_light<all_features, float>(scene, light, normalize(to_light), dot(to_light, to_light));
     return in.pdf > 0 ? luminance(in.radiance) / in.pdf : 0;
@@ -36,7 +36,7 @@ struct PhotonSource {
     const SceneTables& scene;
     bool from_inside = false; // some light is within the sphere of a caster, as in a bulb
 
-    const CausticCasterTables& casters() const { return scene.guides.casters; }
+    const CausticCasterTables& casters() const { return scene.casters; }
 
     // From outside: towards the disk that the caster shows to the light, of which it has nearly the irradiance of its centre.
     EmittedPhoton from_outside(const CasterSphere& caster, const Sampler<float>& sampler) const {

@@ -81,6 +81,7 @@ public:
         return scene;
     }
     const LightPathChoice& light_paths() const { return light_paths_; }
+    bool uses_manifolds() const { return manifolds_.pays(); }
     // True if samples are connected to other vertices than path reuse knows, by densities that it does not know.
     bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
     // True if a sample of this index may go on in several copies (path_splitting.h). Requires !needs_pilot(sample + 1).

@@ -47,6 +47,8 @@ FeatureUse LightPathChoice::report() const {
         use.why = useless_;
     else if (!pilot_)
         use.why = "a pilot decides after the first sample";
+    else if (pays() && are_needed())
+        use.why = fmt::format("they alone find caustics of lights of zero size; pilot: {} for each camera path", pilot_->share);
     else if (!pilot_->figures)
         use.why = "pilot: no light path reaches the image";
     else if (pilot_->share > 0)
@@ -55,7 +57,7 @@ FeatureUse LightPathChoice::report() const {
     else
         use.why = fmt::format("pilot: variance x work would be {:.2f} of that without", pilot_->figures->cost());
     if (use.used) use.bytes = pilot_->emission.memory_bytes();
-    if (pilot_) use.pilot = pilot_->figures;
+    if (pilot_ && !(pays() && are_needed())) use.pilot = pilot_->figures; // else there is nothing to compare with
     return use;
 }
 

@@ -14,7 +14,8 @@ namespace blush {
 
 class RenderScene;
 
-// Only scenes with casters of caustics get a pilot (light_path_pilot.h). The decision depends on the scene and the settings alone. All
+// Only scenes with casters of caustics get a pilot (light_path_pilot.h). The decision depends on the scene and the settings alone. Where no
+// other strategy finds the caustics, as of lights without size, light paths are always used: the image must not depend on the pilot. All
 // samples of an image at full resolution have the same weights, so the first sample is rendered again where light paths pay.
 class LightPathChoice {
 public:
@@ -24,10 +25,12 @@ public:
 
     // True if a pilot must decide before any sample but the first.
     bool needs_pilot() const { return !useless_ && !pilot_; }
+    // False if an image has no light paths, whatever a pilot decides, or it has decided so.
+    bool may_be_used() const { return !useless_ && (!pilot_ || pays()); }
     // Takes its result; ignored if nothing depends on it.
     void decide(LightPathPilot pilot);
 
-    bool pays() const { return pilot_ && pilot_->share > 0 && (share_ || pilot_->figures->cost() < largest_cost); }
+    bool pays() const { return pilot_ && pilot_->share > 0 && (share_ || are_needed() || pilot_->figures->cost() < largest_cost); }
     // Light paths for one sample of every pixel of the whole image; 0: none.
     int64_t paths() const { return pays() ? int64_t(pixels_ * double(pilot_->share)) : 0; }
     const LightPathEmission& emission() const { return pilot_->emission; }
@@ -37,6 +40,8 @@ public:
     FeatureUse report() const;
 
 private:
+    bool are_needed() const { return pilot_->emission.has_zero_size_lights(); }
+
     static constexpr double largest_cost = 0.9; // a pilot errs by some percent, and the kernel for light paths is slower
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides

@@ -140,6 +140,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
         add_camera_tile(tiles[i], variants[i], m);
         m.camera_work += path_work(variants[i], 1) / pilot_samples;
     }
+    if (pilot.emission.has_zero_size_lights()) pilot.share = shares[0]; // at least
     if (!std::ranges::any_of(m.moment[0], [](double moment) { return moment > 0; })) return pilot;
     pilot.figures = figures_of(m, 1);
     double least = 1;

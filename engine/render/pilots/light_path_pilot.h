@@ -15,7 +15,7 @@ namespace blush {
 
 struct LightPathPilot {
     LightPathEmission emission;
-    float share = 0;                     // light paths for each camera path: 0, 1/8, ... 8
+    float share = 0;                     // light paths for each camera path: 0, 1/8, ... 8; not 0 with lights of zero size
     std::optional<PilotFigures> figures; // at that share; at 1/8 if it is 0. Empty: no light path reaches the image
 };
 

@@ -15,7 +15,8 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
     if (why) return why;
     if (scene.features().has(Feature::dispersion)) return "a solid has dispersion"; // Newton's method traces one index of refraction
     if (scene.tables().blends) return "a surface is blended"; // chance hits do not know the transmittance of what they have passed
-    return why_no_caustics(settings, scene, film);
+    if (const char* limit = why_no_caustics(settings, scene, film)) return limit;
+    return scene.tables().casters.count == 0 ? "no mirror or solid glass has light to focus" : nullptr;
 }
 
 } // namespace
@@ -23,7 +24,7 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
 ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
                                const CausticOptions& options)
     : useless_(why_no_manifolds(settings, scene, film)), used_(options.manifold_sampling), uses_vertices_(options.light_vertices),
-      casters_(scene.tables().guides.casters) {}
+      casters_(scene.tables().casters) {}
 
 void ManifoldChoice::decide(ManifoldPilot pilot) {
     if (!useless_) pilot_ = std::move(pilot);

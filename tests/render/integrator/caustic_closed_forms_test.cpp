@@ -7,6 +7,7 @@
 #include "tests/support/statistics.h"
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -39,22 +40,22 @@ constexpr float lamp_radius = 0.04f, candela = 500, half = 1.2f;
 const Vec3 lamp_at{0.3f, 1.9f, 0.2f}, ball_at{0, 0.9f, 0};
 constexpr float ball_radius = 0.5f;
 
-Scene lamp_over(const Material& ball) {
+Scene lamp_over(const Material& ball, float radius) {
     Scene scene;
     place(scene, floor_quad(50), lambert(albedo));
     place(scene, sphere(false), ball, at(ball_at, ball_radius));
-    place_light(scene, caustic_light(Light::Kind::point, candela, lamp_radius), at(lamp_at));
+    place_light(scene, caustic_light(Light::Kind::point, candela, radius), at(lamp_at));
     scene.view = looking_down(half, 0.1f);
     return scene;
 }
 // Radiance of the nine blocks of the floor by Snell's and Fresnel's laws, from rays that carry equal flux: what does not arrive in them
 // arrives elsewhere, as nothing is absorbed.
-std::vector<Measured> traced_floor(double ior) {
+std::vector<Measured> traced_floor(double ior, float radius) {
     constexpr int rays = 1'000'000, n = 3;
     RayTracer tracer(*sphere(false), to_double(ball_at), double(ball_radius), ior);
     std::vector<int64_t> counts(n * n);
     for (int i = 0; i < rays; ++i) {
-        const std::optional<Vec3d> p = tracer.arrival(to_double(lamp_at), double(lamp_radius));
+        const std::optional<Vec3d> p = tracer.arrival(to_double(lamp_at), double(radius));
         if (!p || std::abs(p->x) >= double(half) || std::abs(p->z) >= double(half)) continue;
         const auto cell = [](double x) { return size_t((x / double(half) + 1) / 2 * n); };
         ++counts[cell(p->z) * n + cell(p->x)];
@@ -70,60 +71,99 @@ std::vector<Measured> traced_floor(double ior) {
 }
 
 TEST(CausticClosedForms, FluxThroughAGlassBallArrivesOnTheFloor) {
-    const std::vector<Measured> traced = traced_floor(1.5), thinner = traced_floor(1.45);
-    for (const Ways& ways : {automatic, light_paths}) {
-        SCOPED_TRACE(ways.name);
-        const std::vector<Measured> seen = blocks_of(lamp_over(glass(0, 1.5f)), settings_for(36, 36, 48), ways);
-        EXPECT_TRUE(same_means(seen, traced));
-        EXPECT_FALSE(same_means(seen, thinner)) << "the test is too weak to see an index of 1.45";
+    for (const float radius : {lamp_radius, 0.f}) {
+        const std::vector<Measured> traced = traced_floor(1.5, radius), thinner = traced_floor(1.45, radius);
+        for (const Ways& ways : {automatic, light_paths}) {
+            SCOPED_TRACE(testing::Message() << ways.name << ", lamp of radius " << radius);
+            const std::vector<Measured> seen = blocks_of(lamp_over(glass(0, 1.5f), radius), settings_for(36, 36, 48), ways);
+            EXPECT_TRUE(same_means(seen, traced));
+            EXPECT_FALSE(same_means(seen, thinner)) << "the test is too weak to see an index of 1.45";
+        }
     }
 }
 
 TEST(CausticClosedForms, FluxFromAMirrorBallArrivesOnTheFloor) {
-    const std::vector<Measured> traced = traced_floor(0);
-    for (const Ways& ways : {automatic, light_paths}) {
-        SCOPED_TRACE(ways.name);
-        EXPECT_TRUE(same_means(blocks_of(lamp_over(metal(0)), settings_for(36, 36, 48), ways), traced));
+    for (const float radius : {lamp_radius, 0.f}) {
+        const std::vector<Measured> traced = traced_floor(0, radius);
+        for (const Ways& ways : {automatic, light_paths}) {
+            SCOPED_TRACE(testing::Message() << ways.name << ", lamp of radius " << radius);
+            EXPECT_TRUE(same_means(blocks_of(lamp_over(metal(0), radius), settings_for(36, 36, 48), ways), traced));
+        }
     }
 }
 
 // ---- a lamp and its image in a mirror
 
-// Irradiance by the lamp, and by the lamp that the mirror in the plane x = `mirror` shows behind it.
-TEST(CausticClosedForms, AMirrorShowsASecondLamp) {
-    constexpr double mirror = -1.5;
-    Light lamp = caustic_light(Light::Kind::rectangle, 100);
-    lamp.width = 0.3f, lamp.height = 0.2f;
-    const Transform place_of_lamp = aimed({0.4f, 1.2f, 0.3f}, {-0.6f, -1, 0});
+constexpr double mirror = -1.5;
+// A floor beside a mirror in the plane x = `mirror`, `size` metres high and twice as wide.
+Scene mirrored_floor(float size) {
     Scene scene;
     place(scene, floor_quad(50), lambert(albedo));
-    place(scene, quad({float(mirror), 0, 20}, {float(mirror), 0, -20}, {float(mirror), 20, -20}, {float(mirror), 20, 20}), metal(0));
-    place_light(scene, lamp, place_of_lamp);
+    place(scene, quad({float(mirror), 0, size}, {float(mirror), 0, -size}, {float(mirror), size, -size}, {float(mirror), size, size}),
+          metal(0));
     scene.view = looking_down(1, 0.1f);
-    const std::array<Vec3d, 4> corners = rectangle_corners(lamp, place_of_lamp);
-    std::array<Vec3d, 4> mirrored = corners;
-    for (Vec3d& c : mirrored) c.x = 2 * mirror - c.x;
-    const auto floor = [&](double images) {
-        constexpr int n = 3, steps = 32;
-        std::vector<Measured> blocks;
-        for (int block = 0; block < n * n; ++block) {
-            double sum = 0;
-            for (int i = 0; i < steps * steps; ++i) {
-                const auto along = [&](int cell, int step) { return (cell + (step + 0.5) / steps) * 2 / n - 1; };
-                const Vec3d p{along(block % n, i % steps), 0, along(block / n, i / steps)};
-                sum += polygon_irradiance(p, {0, 1, 0}, corners) + images * polygon_irradiance(p, {0, 1, 0}, mirrored);
-            }
-            const double l = 100 * sum / (steps * steps) * double(albedo) / pi_;
-            blocks.push_back({{l, l, l}, {0, 0, 0}});
+    return scene;
+}
+// Radiance of the nine blocks of the floor; `irradiance` is that of a point of it.
+template <class Irradiance> std::vector<Measured> floor_blocks(const Irradiance& irradiance) {
+    constexpr int n = 3, steps = 32;
+    std::vector<Measured> blocks;
+    for (int block = 0; block < n * n; ++block) {
+        double sum = 0;
+        for (int i = 0; i < steps * steps; ++i) {
+            const auto along = [&](int cell, int step) { return (cell + (step + 0.5) / steps) * 2 / n - 1; };
+            sum += irradiance(Vec3d{along(block % n, i % steps), 0, along(block / n, i / steps)});
         }
-        return blocks;
-    };
-    for (const Ways& ways : {automatic, light_paths}) {
+        const double l = sum / (steps * steps) * double(albedo) / pi_;
+        blocks.push_back({{l, l, l}, {0, 0, 0}});
+    }
+    return blocks;
+}
+// `floor`: its blocks if the mirror reflects this share.
+void expect_mirrored_light(const Scene& scene, const std::function<std::vector<Measured>(double)>& floor) {
+    const Ways manifolds{"manifold sampling", CausticStrategy::manifold, {.light_path_share = 0.f, .manifold_sampling = true}};
+    for (const Ways& ways : {automatic, light_paths, manifolds}) {
         SCOPED_TRACE(ways.name);
         const std::vector<Measured> seen = blocks_of(scene, settings_for(36, 36, 48), ways);
         EXPECT_TRUE(same_means(seen, floor(1)));
         EXPECT_FALSE(same_means(seen, floor(0.95))) << "the test is too weak to see a mirror that absorbs 5 %";
     }
+}
+
+// Irradiance by the lamp, and by the lamp that the mirror shows behind it.
+TEST(CausticClosedForms, AMirrorShowsASecondLamp) {
+    Light lamp = caustic_light(Light::Kind::rectangle, 100);
+    lamp.width = 0.3f, lamp.height = 0.2f;
+    const Transform place_of_lamp = aimed({0.4f, 1.2f, 0.3f}, {-0.6f, -1, 0});
+    Scene scene = mirrored_floor(20);
+    place_light(scene, lamp, place_of_lamp);
+    const std::array<Vec3d, 4> corners = rectangle_corners(lamp, place_of_lamp);
+    std::array<Vec3d, 4> mirrored = corners;
+    for (Vec3d& c : mirrored) c.x = 2 * mirror - c.x;
+    expect_mirrored_light(scene, [&](double reflected) {
+        return floor_blocks([&](const Vec3d& p) {
+            return 100 * (polygon_irradiance(p, {0, 1, 0}, corners) + reflected * polygon_irradiance(p, {0, 1, 0}, mirrored));
+        });
+    });
+}
+
+// No ray hits a light without size.
+TEST(CausticClosedForms, AMirrorShowsAPointWithoutSize) {
+    Scene scene = mirrored_floor(20);
+    const Vec3d lamp{0.4, 1.2, 0.3}, behind{2 * mirror - lamp.x, lamp.y, lamp.z};
+    place_light(scene, caustic_light(Light::Kind::point, 100), at(to_float(lamp)));
+    const auto irradiance = [](const Vec3d& p, const Vec3d& light) { return 100 * light.y / std::pow(length(light - p), 3); };
+    expect_mirrored_light(scene, [&](double reflected) {
+        return floor_blocks([&](const Vec3d& p) { return irradiance(p, lamp) + reflected * irradiance(p, behind); });
+    });
+}
+TEST(CausticClosedForms, AMirrorShowsASunWithoutSize) {
+    Scene scene = mirrored_floor(5);
+    const Vec3d to_sun = normalize(Vec3d{0.6, 1, 0.2});
+    place_light(scene, caustic_light(Light::Kind::sun, 100), aimed({0, 5, 0}, to_float(to_sun * -1.0)));
+    // The mirror is large enough to light the whole view.
+    expect_mirrored_light(scene,
+                          [&](double reflected) { return floor_blocks([&](const Vec3d&) { return 100 * to_sun.y * (1 + reflected); }); });
 }
 
 // ---- the spectrum behind a prism

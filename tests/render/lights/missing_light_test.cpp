@@ -28,12 +28,12 @@ struct Room {
         used.push_back(scene.meshes.find(scene.nodes.find(node)->mesh)->parts[0].material);
     }
 };
-std::string said(const Material& material, const Light& light) {
+std::string said(const Material& material, const Light& light, CausticFinders finders = CausticFinders::none) {
     Room room;
     room.put(lambert(0.5f));
     room.put(material);
     place_light(room.scene, light, aimed({0, 3, 0}, {0, -1, 0}));
-    return missing_light(room.scene, nodes_with_lights(room.scene), smooth_surfaces(room.scene, room.used));
+    return missing_light(room.scene, nodes_with_lights(room.scene), smooth_surfaces(room.scene, room.used), finders);
 }
 
 TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
@@ -44,6 +44,10 @@ TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
         EXPECT_TRUE(said(glass(0, 1.5f), lamp(kind, 0)).starts_with("some light cannot be found"));
         EXPECT_NE(said(glass(0, 1.5f), lamp(kind, 0)).find("through smooth glass"), std::string::npos);
         EXPECT_NE(said(metal(0), lamp(kind, 0)).find("by reflection"), std::string::npos);
+        EXPECT_NE(said(metal(0), lamp(kind, 0), CausticFinders::light_paths)
+                      .find("caustics of point, spot and sun lights of zero size, where they are seen in smooth"),
+                  std::string::npos);
+        EXPECT_EQ(said(glass(0, 1.5f), lamp(kind, 0.1f), CausticFinders::light_paths), "");
         EXPECT_EQ(said(pane, lamp(kind, 0)).find("through"), std::string::npos) << "light passes panes";
         EXPECT_EQ(said(glass(0, 1.5f), lamp(kind, 0.1f)), "") << "rays can hit lights with a size";
         EXPECT_EQ(said(glass(0.3f, 1.5f), lamp(kind, 0)), "") << "NEE finds it through rough lobes";
@@ -74,6 +78,32 @@ TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
     EXPECT_FALSE(frame.error.rmse_known);
     const auto& warnings = renderer.info().warnings;
     EXPECT_TRUE(std::ranges::any_of(warnings, [&](const Diagnostic& d) { return d.what == frame.missing_light; }));
+}
+
+// Each strategy that finds a part of it makes the message shorter.
+TEST(MissingLight, IsWhatTheStrategiesOfTheImageDoNotFind) {
+    Scene scene;
+    place(scene, floor_quad(2), lambert(0.5f));
+    place(scene, sphere(false), metal(0), at({0, 0.5f, 0}, 0.5f));
+    place_light(scene, lamp(Light::Kind::point, 0), at({1, 2, 0.5f}));
+    scene.view = looking({0, 2, 4}, {0, 0.3f, 0}, 0.6f);
+    const auto missing = [&](CausticStrategy caustics) {
+        RenderSettings settings = settings_for(64, 36, 2);
+        settings.caustics = caustics;
+        Renderer renderer({.threads = 2});
+        renderer.update(scene, settings);
+        renderer.render(0, 2);
+        return renderer.resolve().missing_light;
+    };
+    const std::string end = "; give these lights a radius or an angle, or the material some roughness",
+                      by_light_paths =
+                          "some light cannot be found: caustics of point, spot and sun lights of zero size, where they are seen "
+                          "in smooth surfaces";
+    EXPECT_EQ(missing(CausticStrategy::off),
+              "some light cannot be found: that of point, spot and sun lights of zero size, by reflection in smooth surfaces" + end);
+    EXPECT_EQ(missing(CausticStrategy::light_paths), by_light_paths + end);
+    EXPECT_EQ(missing(CausticStrategy::automatic),
+              by_light_paths + " and come by way of more than six surfaces, or by reflections within glass" + end);
 }
 
 } // namespace

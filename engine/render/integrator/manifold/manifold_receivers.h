@@ -9,8 +9,8 @@
 
 namespace blush::inline BLUSH_ISA {
 
-// hit: of a path that has found the light by chance (manifold_hits.h).
-enum ReceiverFlag : int32_t { receiver_infinite = 1, receiver_two_sided = 2, receiver_hit = 4 };
+// hit: of a path that has found the light by chance (manifold_hits.h); zero_size: no path can.
+enum ReceiverFlag : int32_t { receiver_infinite = 1, receiver_two_sided = 2, receiver_hit = 4, receiver_zero_size = 8 };
 
 // Share of samples that take their light from the seeds of the whole scene.
 constexpr float global_share = 0.1f;
@@ -18,6 +18,8 @@ constexpr float global_share = 0.1f;
 constexpr float least_receiver_survival = 1.f / 16;
 // Of the size of the light: the distance from its point at which a walk has converged.
 constexpr float converged_share = 2e-3f;
+// The same for lights of zero size: of the distance to the light; at infinity radians.
+constexpr float converged_at_points = 2e-5f;
 
 template <class F> Vec<F> load3(const Columns3& c, const Int<F>& i) { return {gather(c.x, i), gather(c.y, i), gather(c.z, i)}; }
 
@@ -48,6 +50,11 @@ LightPoint<F> chain_light_point(const SceneTables& scene, const Int<F>& light, c
     return p;
 }
 
+// True for lights that no ray can hit (has_zero_size).
+template <class F> Mask<F> is_zero_size(const LightTables& lights, const LightPoint<F>& p) {
+    const F height = gather_field(lights.lights, &LightRecord::cone_height, p.light);
+    return has_kind(p, LightKind::point) || (p.infinite && !(height > F(0.f)));
+}
 // The size of a light as its points are sampled: metres; at infinity radians.
 template <class F> F chain_light_size(const SceneTables& scene, const LightPoint<F>& p) {
     const LightRecord* lights = scene.lights.lights;
@@ -123,8 +130,10 @@ template <class F>
 void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainReceiver<F>& receiver, const Mask<F>& queued) {
     const LightPoint<F>& p = receiver.light;
     const Vec<F> to = p.position - receiver.origin;
-    const F rounding = select(p.infinite, F(2e-6f), sqrt(dot(to, to)) * 2e-6f);
-    const F tolerance = max(F(chain_light_size<F>(scene, p) * converged_share), rounding);
+    const F distance = select(p.infinite, F(1.f), sqrt(dot(to, to)));
+    const Mask<F> zero_size = is_zero_size<F>(scene.lights, p);
+    const F of_size = chain_light_size<F>(scene, p) * converged_share;
+    const F tolerance = select(zero_size, distance * converged_at_points, max(of_size, F(distance * 2e-6f)));
     const unsigned lanes = bits(queued);
     const int k = c.size;
     const auto put_all = [&](Columns3& column, const Vec<F>& vector) {
@@ -146,7 +155,9 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     compress(c.slot + k, receiver.slot, lanes);
     compress(c.light + k, p.light, lanes);
     compress(c.kind + k,
-             select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) | select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)), lanes);
+             select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) | select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)) |
+                 select(zero_size, Int<F>(receiver_zero_size), Int<F>(0)),
+             lanes);
     compress(c.first_seed + k, receiver.seeds.first, lanes);
     compress(c.seeds + k, receiver.seeds.count, lanes);
     compress(c.random + k, receiver.random, lanes);

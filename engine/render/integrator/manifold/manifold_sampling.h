@@ -50,12 +50,13 @@ template <Features S, class F> F beside_light_vertices(const SceneTables& scene,
 }
 
 // For the pilot: density with which paths of the camera and light paths together sample the direction of a solution; the probabilities of
-// the chain's events are left out, which are near 1 or weight little light.
+// the chain's events are left out, which are near 1 or weight little light. 0 for lights of zero size that light paths do not find.
 template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
                                                                    const F& cosine, const Mask<F>& active) {
     const GuideTables& guides = scene.manifolds.guides_without;
     const auto guide = direction_guide_at<F>(guides, load3<F>(c.origin, w.index), load3<F>(c.ns, w.index), active);
-    const F density = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
+    const F by_hits = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
+    const F density = select(of_zero_size<F>(c, w), F(0.f), by_hits);
     if (scene.emission.empty()) return density;
     // Light paths leave the receiver, which is Lambertian, with the density 1 / pi (light_path_weights.h).
     const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active);
@@ -178,10 +179,13 @@ void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>&
 
 template <class F> F cos_at_light(const ManifoldColumns& c, const Walk<F>& w) {
     const Int<F> kind = gather(c.kind, w.index);
-    const Mask<F> infinite = as_mask((kind & int32_t(receiver_infinite)) != 0),
+    const Mask<F> faces_all = as_mask((kind & int32_t(receiver_infinite | receiver_zero_size)) != 0),
                   two_sided = as_mask((kind & int32_t(receiver_two_sided)) != 0);
     const F cosine = -dot(load3<F>(c.target_normal, w.index), w.ray.direction);
-    return select(infinite, F(1.f), select(two_sided, abs(cosine), max(cosine, F(0.f))));
+    return select(faces_all, F(1.f), select(two_sided, abs(cosine), max(cosine, F(0.f))));
+}
+template <class F> Mask<F> of_zero_size(const ManifoldColumns& c, const Walk<F>& w) {
+    return as_mask((gather(c.kind, w.index) & int32_t(receiver_zero_size)) != 0);
 }
 
 // Hits of paths whose chain has been traced: they get all their light, none, or trials decide.
@@ -228,7 +232,7 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
                                                    const Mask<F>& solved, Walk<F>& w, WalkRound<F>& round) {
     const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f)), facing = cos_at_light<F>(c, w);
     const F pdf = gather(c.density, w.index) * end.determinant / max(facing, F(1e-20f)); // of the direction
-    const F by_paths = cosine_hemisphere_pdf(cosine);
+    const F by_paths = select(of_zero_size<F>(c, w), F(0.f), cosine_hemisphere_pdf(cosine));
     const HitShare<F> share = share_of_hits<F>(by_paths, pdf);
     Vec<F> found = load3<F>(c.reflected, w.index) * load3<F>(c.emission, w.index) * w.transmittance * (cosine / pdf);
     found = select<F>(facing > F(0.f), found, splat<F>(0.f));
@@ -251,7 +255,8 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     put_int<F>(c.root_chain, w.index, w.chain, lanes);
     if (c.measures) {
         const F density = density_without<S, F>(*context.scene, c, w, cosine, carries);
-        put<F>(c.base, w.index, luminance(found) * pdf / max(density, F(1e-20f)), lanes);
+        const F least = select(of_zero_size<F>(c, w), pdf * 1e-9f, F(1e-20f));
+        put<F>(c.base, w.index, luminance(found) * pdf / max(density, least), lanes);
     }
     w.state = select(carries, Int<F>(arrives), w.state);
     round.alive = round.alive && (!solved || carries);

@@ -53,17 +53,40 @@ TEST(ManifoldSampling, AgreesWithTheOtherStrategies) {
 }
 TEST(ManifoldSampling, AgreesBehindPanes) { agrees_with_the_other_strategies(behind_panes(), 32); }
 
-// A slab of glass over a floor, under a sun of half a degree: of light from direction cosine c, (1 - F(c))^2 arrives on the floor by
-// refraction alone. Paths end before it is reflected.
+// Lights without size: nothing finds them by chance. All light that the balls focus is in chains, as none of them is of glass.
+TEST(ManifoldSampling, AgreesWithLightPathsAndLightVerticesForLightsWithoutSize) {
+    Scene balls;
+    place(balls, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
+    place(balls, quad({-2, 0, -1}, {2, 0, -1}, {2, 2, -1}, {-2, 2, -1}), lambert({0.5f, 0.6f, 0.7f}));
+    place(balls, round_sphere(), metal(0), at({-0.7f, 0.5f, 0}, 0.4f));
+    place(balls, round_sphere(), metal(0), at({0.7f, 0.5f, 0.2f}, 0.4f));
+    balls.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
+    Scene by_point = balls, by_sun = balls;
+    place_light(by_point, caustic_light(Light::Kind::point, 20), at({0.1f, 2.5f, 0.5f}));
+    place_light(by_sun, caustic_light(Light::Kind::sun, 3), aimed({0, 5, 0}, {0.3f, -1, -0.2f}));
+    for (const Scene& scene : {by_point, by_sun}) {
+        const auto blocks = [&](float light_paths, bool vertices, uint32_t seed) {
+            return caustic_blocks(scene, settings_for(36, 36, 24),
+                                  {.light_path_share = light_paths, .manifold_sampling = true, .light_vertices = vertices},
+                                  "light vertices", vertices, 16, seed);
+        };
+        const auto alone = blocks(0, false, 1);
+        EXPECT_TRUE(same_means(blocks(0, true, 1000), alone, sidak(significance, 4))) << "with light vertices";
+        EXPECT_TRUE(same_means(blocks(0.5f, true, 2000), alone, sidak(significance, 4))) << "with light paths, too";
+    }
+}
+
+// A slab of glass over a floor, under a sun of half a degree or without size: of light from direction cosine c, (1 - F(c))^2 arrives on the
+// floor by refraction alone. Paths end before it is reflected.
 TEST(ManifoldSampling, FindsTheSunThroughASlab) {
-    for (const float ior : {1.1f, 1.5f, 2.4f}) {
+    for (const auto& [ior, angle] : {std::pair(1.1f, 0.0087f), {1.5f, 0.0087f}, {2.4f, 0.0087f}, {1.5f, 0.f}}) {
         Scene scene;
         place(scene, floor_quad(3), lambert(0.5f));
         Transform slab = at({0, 1, 0});
         slab.scale = {20, 0.1f, 20};
         place(scene, cube(false), glass(0, ior), slab);
         Light sun = caustic_light(Light::Kind::sun, 4);
-        sun.angle_radians = 0.0087f;
+        sun.angle_radians = angle;
         const Vec3 direction = normalize(Vec3{0.6f, -0.8f, 0});
         place_light(scene, sun, aimed({0, 5, 0}, direction));
         scene.view = looking({0, 0.5f, 0.8f}, {0, 0, 0}, 0.6f);
@@ -78,7 +101,7 @@ TEST(ManifoldSampling, FindsTheSunThroughASlab) {
         const double passed = 1 - (s * s + p * p) / 2;
         // The Fresnel term over the sun's disk varies by less than the slack.
         const double expected = 0.5 / double(pi) * 4 * c * passed * passed;
-        EXPECT_TRUE(is_mean(image_of(renderer).whole(), expected, significance, 1e-4 * expected)) << ior;
+        EXPECT_TRUE(is_mean(image_of(renderer).whole(), expected, significance, 1e-4 * expected)) << ior << ", angle " << angle;
     }
 }
 
