@@ -13,7 +13,7 @@ namespace blush {
 bool Renderer::State::trace_light_paths(int64_t first, int64_t count, const Wanted& wanted) {
     if (!add_replacement_passes(first, count, wanted)) return false;
     if (!splats) return true;
-    const SceneTables tables = learned.tables(scene.tables(), 1);
+    const SceneTables tables = learned.light_path_tables(scene.tables());
     KernelContext context = context_for(tables, film.width(), film.height());
     context.seed = settings.seed;
     context.settings.reuse = {};

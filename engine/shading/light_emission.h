@@ -20,6 +20,7 @@ struct EmissionTables {
     CausticCasterTables casters;
     CasterSphere scene{}; // contains all surfaces
     float paths = 0;      // light paths for one camera sample of every pixel
+    bool alone = false;   // of lights without size, and by a delta lobe of the first surface: no other strategy finds this light
 
     bool empty() const { return !chances; }
 };

@@ -147,9 +147,12 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             log.outcome(vertex);
             return true;
         });
-        if (!tables.emission.empty()) {
+        if (learned.light_paths().pays()) {
             const Kernel& with_light_paths = kernel_like(kernel, kernel.features.with(Feature::light_paths));
-            const PixelLightPaths found = replay_light_paths(context, with_light_paths, learned.light_paths().emission(),
+            const SceneTables light_tables = learned.light_path_tables(compiled.tables());
+            KernelContext light_context = context;
+            light_context.scene = &light_tables;
+            const PixelLightPaths found = replay_light_paths(light_context, with_light_paths, learned.light_paths().emission(),
                                                              learned.light_paths().paths(), sample, x, y, scratch);
             log.line("light paths: {} connections of {} light paths contribute {} to this pixel", found.connections,
                      learned.light_paths().paths(), rgb(found.light));

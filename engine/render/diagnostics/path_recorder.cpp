@@ -51,10 +51,12 @@ RecordedPath PathRecorder::State::record(int x, int y, int64_t sample, bool ligh
             path.vertices.push_back(recorder.record(vertex, path.vertices.empty() ? nullptr : &path.vertices.back()));
         return true;
     });
-    if (!light_paths || tables.emission.empty()) return path;
+    if (!light_paths || !learned.light_paths().pays()) return path;
+    const SceneTables light_tables = learned.light_path_tables(scene.tables());
     const Kernel& kernel = choose_kernel(scene.features().with(Feature::light_paths));
-    path.light_paths =
-        replay_light_paths(with, kernel, learned.light_paths().emission(), learned.light_paths().paths(), sample, x, y, tile).light;
+    path.light_paths = replay_light_paths(context(light_tables), kernel, learned.light_paths().emission(), learned.light_paths().paths(),
+                                          sample, x, y, tile)
+                           .light;
     return path;
 }
 

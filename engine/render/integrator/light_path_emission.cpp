@@ -127,12 +127,17 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
             if (!std::isfinite(f)) f = 0;
             (k + 1 < columns ? aimed : all) += f;
-            has_zero_size_lights_ |= k + 1 < columns && f > 0 && has_zero_size(light);
         }
     }
     if (!(aimed > 0 && all > 0)) return;
     for (size_t i = 0; i < flux.size(); ++i) flux[i] *= i % columns + 1 < columns ? (1 - even_share) / aimed : even_share / all;
     set_chances(flux);
+}
+
+LightPathEmission LightPathEmission::of_zero_size_lights(const SceneTables& tables, const CasterSphere& scene) {
+    LightPathEmission emission(tables, scene, [&](int32_t light) { return has_zero_size(tables.lights.lights[light]); });
+    emission.alone_ = true;
+    return emission;
 }
 
 LightPathEmission LightPathEmission::of_all_lights(const SceneTables& tables, const CasterSphere& scene) {
@@ -158,7 +163,7 @@ void LightPathEmission::set_chances(const std::vector<double>& flux) {
 
 EmissionTables LightPathEmission::tables(float paths) const {
     if (empty()) return {};
-    return {chances_.data(), lights_, casters_, scene_, paths};
+    return {chances_.data(), lights_, casters_, scene_, paths, alone_};
 }
 
 EmittedPath LightPathEmission::emit(const SceneTables& tables, const Sampler<float>& sampler) const {

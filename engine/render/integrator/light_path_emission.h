@@ -23,12 +23,12 @@ public:
     LightPathEmission(
         const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits = [](int32_t) { return true; });
 
+    // For lights without size: paths that no other strategy finds (EmissionTables::alone).
+    static LightPathEmission of_zero_size_lights(const SceneTables& tables, const CasterSphere& scene);
     // For all lights, towards the whole scene: for photon maps (photon_map.h).
     static LightPathEmission of_all_lights(const SceneTables& tables, const CasterSphere& scene);
 
     bool empty() const { return chances_.empty(); }
-    // True if some light without size reaches a caster: no other strategy finds its caustics.
-    bool has_zero_size_lights() const { return has_zero_size_lights_; }
     // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
     EmissionTables tables(float paths) const;
     // Random numbers of an emission: choose the light and its caster, the point of the light, and the direction.
@@ -52,7 +52,7 @@ private:
     CausticCasterTables casters_;
     CasterSphere scene_{};
     int32_t lights_ = 0;
-    bool has_zero_size_lights_ = false;
+    bool alone_ = false;
 };
 
 // Light paths [first, first + count) of pass `pass` of an image of `paths_per_pass` paths a pass; the passes of a half have one sequence of

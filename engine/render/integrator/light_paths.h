@@ -189,6 +189,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
+    if (bounce == 0 && context.scene->emission.alone) continues = continues && s.delta; // else NEE finds the light
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
         const Mask<F> applied = dense || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
         const F q = select(applied, survival_probability(settings.roulette, beta), F(1.f));
@@ -240,7 +241,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
             v.hit_ratio = load<F>(columns.hit_ratio[1 - queue] + k);
             v.nee_ratio = load<F>(columns.nee_ratio[1 - queue] + k);
         }
-        connect_vertex<S, F>(context, scratch, path, v, bounce);
+        if (bounce > 0 || !scene.emission.alone) connect_vertex<S, F>(context, scratch, path, v, bounce);
         if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, scratch, next, queue);
     }
 }

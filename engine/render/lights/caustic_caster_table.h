@@ -14,7 +14,7 @@ namespace blush {
 
 // True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool casts_caustics(const Material& material);
-// True for smooth window glass: it focuses nothing, but what it reflects of small lights is found by light paths alone.
+// True for smooth window glass: it focuses nothing, but what it reflects of lights without size is found by light paths alone.
 bool reflects_as_pane(const Material& material);
 
 // Bounding sphere of a geometry, in object space.

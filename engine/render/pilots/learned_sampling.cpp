@@ -76,18 +76,25 @@ bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kerne
         const Kernel& chains = kernel_like(own, own.features.with(Feature::light_paths));
         if (!traced) traced = trace_caustic_photons(with, own, others...);
         if (!traced) return std::nullopt;
-        return measure_manifolds(with, *traced, scene_sphere_, scene.casters, chains, light_paths_.pays() ? chains : own, others...);
+        return measure_manifolds(with, *traced, scene_sphere_, scene.casters, chains, light_paths_.combined() ? chains : own, others...);
     };
     const auto learn_roulette = [&](const KernelContext& with, auto&&... others) -> std::optional<AdjointPilot> {
         if (with.settings.roulette.rule == Roulette::Rule::automatic) {
             if (manifolds_.pays()) return roulette_with_manifolds();
-            if (light_paths_.pays())
+            if (light_paths_.combined())
                 return AdjointPilot{.why_not = "light paths: a pilot is too short to tell what roulette does to caustics"};
         }
         return learn_adjoint(with, reuse_group_size(1), others...);
     };
+    const auto measure_beside_light_paths = [&] {
+        if (!manifolds_.needs_pilot()) return true;
+        light_paths_.combine_with_manifolds(true);
+        if (!run(manifolds_, measure_chains)) return false;
+        light_paths_.combine_with_manifolds(manifolds_.pays());
+        return true;
+    };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&
-           run(light_paths_, measure_paths) && run(manifolds_, measure_chains) && (excludes_reuse() || run(reuse_, measure_path_reuse)) &&
+           run(light_paths_, measure_paths) && measure_beside_light_paths() && (excludes_reuse() || run(reuse_, measure_path_reuse)) &&
            (samples <= first_roulette_sample() || run(adjoint_, learn_roulette));
 }
 

@@ -67,6 +67,8 @@ public:
         const SceneTables t = guiding_.tables(portals_.tables(visibility_.tables(scene, sample), sample), sample);
         return adjoint_.tables(manifolds_.tables(light_paths_.tables(t, sample), sample), sample);
     }
+    // The same for light paths, if light_paths().pays().
+    SceneTables light_path_tables(const SceneTables& scene) const { return light_paths_.light_path_tables(tables(scene, 1)); }
     // Images begin without them from now on.
     void drop_kept() {
         kept_.reset();
@@ -83,7 +85,7 @@ public:
     const LightPathChoice& light_paths() const { return light_paths_; }
     bool uses_manifolds() const { return manifolds_.pays(); }
     // True if samples are connected to other vertices than path reuse knows, by densities that it does not know.
-    bool excludes_reuse() const { return light_paths_.pays() || manifolds_.pays(); }
+    bool excludes_reuse() const { return light_paths_.combined() || manifolds_.pays(); }
     // True if a sample of this index may go on in several copies (path_splitting.h). Requires !needs_pilot(sample + 1).
     bool splits(int64_t sample) const {
         return sample >= AdjointChoice::first_sample && adjoint_.splits() && !excludes_reuse() && reuse_group_size(sample) == 1;

@@ -28,16 +28,28 @@ const char* why_no_light_paths(const RenderSettings& settings, const RenderScene
 } // namespace
 
 LightPathChoice::LightPathChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<float> share)
-    : useless_(why_no_light_paths(settings, scene, film)), share_(share), pixels_(double(settings.width) * double(settings.height)) {}
+    : useless_(why_no_light_paths(settings, scene, film)), share_(share), pixels_(double(settings.width) * double(settings.height)),
+      smooth_(scene.may_have_highlights()) {}
 
 void LightPathChoice::decide(LightPathPilot pilot) {
     if (useless_) return;
     pilot_ = std::move(pilot);
-    if (share_ && pilot_->figures) pilot_->share = *share_;
+    if (share_ && (pilot_->figures || !pilot_->zero_size.empty())) pilot_->share = *share_;
+}
+
+float LightPathChoice::share() const {
+    if (!pays()) return 0;
+    if (share_) return *share_;
+    const float of_sized = pays_by_figures() ? pilot_->share : 0;
+    return std::max(of_sized, pilot_->zero_size_share);
 }
 
 SceneTables LightPathChoice::tables(SceneTables scene, int64_t sample) const {
-    if (sample > 0 && pays()) scene.emission = pilot_->emission.tables(float(paths()));
+    return sample > 0 && combined() ? light_path_tables(scene) : scene;
+}
+
+SceneTables LightPathChoice::light_path_tables(SceneTables scene) const {
+    scene.emission = emission().tables(float(paths()));
     return scene;
 }
 
@@ -47,17 +59,17 @@ FeatureUse LightPathChoice::report() const {
         use.why = useless_;
     else if (!pilot_)
         use.why = "a pilot decides after the first sample";
-    else if (pays() && are_needed())
-        use.why = fmt::format("they alone find caustics of lights of zero size; pilot: {} for each camera path", pilot_->share);
+    else if (pays() && !pays_by_figures() && !share_)
+        use.why = fmt::format("they alone find caustics of lights of zero size, with {} for each camera path", share());
     else if (!pilot_->figures)
         use.why = "pilot: no light path reaches the image";
     else if (pilot_->share > 0)
-        use.why = fmt::format("pilot: variance x work is {:.2f} of that without, with {} for each camera path", pilot_->figures->cost(),
-                              pilot_->share);
+        use.why =
+            fmt::format("pilot: variance x work is {:.2f} of that without, with {} for each camera path", pilot_->figures->cost(), share());
     else
         use.why = fmt::format("pilot: variance x work would be {:.2f} of that without", pilot_->figures->cost());
-    if (use.used) use.bytes = pilot_->emission.memory_bytes();
-    if (pilot_ && !(pays() && are_needed())) use.pilot = pilot_->figures; // else there is nothing to compare with
+    if (use.used) use.bytes = emission().memory_bytes();
+    if (pilot_) use.pilot = pilot_->figures;
     return use;
 }
 

@@ -14,9 +14,11 @@ namespace blush {
 
 class RenderScene;
 
-// Only scenes with casters of caustics get a pilot (light_path_pilot.h). The decision depends on the scene and the settings alone. Where no
-// other strategy finds the caustics, as of lights without size, light paths are always used: the image must not depend on the pilot. All
-// samples of an image at full resolution have the same weights, so the first sample is rendered again where light paths pay.
+// Only scenes with casters of caustics get a pilot (light_path_pilot.h). The decision depends on the scene and the settings alone. All
+// samples of an image at full resolution have the same weights, so the first sample is rendered again where light paths are used:
+//   - combined with the strategies of the camera's paths by MIS, where that pays, or beside manifold sampling,
+//   - else alone, for what these strategies never find: delta lobes that light of zero size has passed. Then the camera's samples are those
+//     without light paths. The image must not depend on what a pilot has seen, so this does not, either.
 class LightPathChoice {
 public:
     LightPathChoice() = default;
@@ -30,23 +32,36 @@ public:
     // Takes its result; ignored if nothing depends on it.
     void decide(LightPathPilot pilot);
 
-    bool pays() const { return pilot_ && pilot_->share > 0 && (share_ || are_needed() || pilot_->figures->cost() < largest_cost); }
+    // Beside manifold sampling, light paths leave what cameras see by delta lobes to it.
+    void combine_with_manifolds(bool manifolds) { with_manifolds_ = manifolds; }
+
+    bool combined() const {
+        if (!pilot_) return false;
+        return share_ ? pilot_->share > 0 : pays_by_figures() || (with_manifolds_ && !pilot_->zero_size.empty());
+    }
+    bool alone() const { return pilot_ && !combined() && !share_ && smooth_ && !pilot_->zero_size.empty(); }
+    bool pays() const { return combined() || alone(); }
     // Light paths for one sample of every pixel of the whole image; 0: none.
-    int64_t paths() const { return pays() ? int64_t(pixels_ * double(pilot_->share)) : 0; }
-    const LightPathEmission& emission() const { return pilot_->emission; }
-    // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
+    int64_t paths() const { return int64_t(pixels_ * double(share())); }
+    const LightPathEmission& emission() const { return combined() ? pilot_->emission : pilot_->zero_size; }
+    // The tables for a sample of the camera's paths of this index at full resolution. Requires a decision except for index 0. Valid as long
+    // as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
+    // The same for light paths. Requires pays().
+    SceneTables light_path_tables(SceneTables scene) const;
 
     FeatureUse report() const;
 
 private:
-    bool are_needed() const { return pilot_->emission.has_zero_size_lights(); }
-
     static constexpr double largest_cost = 0.9; // a pilot errs by some percent, and the kernel for light paths is slower
+
+    bool pays_by_figures() const { return pilot_->share > 0 && pilot_->figures->cost() < largest_cost; }
+    float share() const;
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides
     std::optional<float> share_;
     double pixels_ = 0;
+    bool smooth_ = false, with_manifolds_ = false;
     std::optional<LightPathPilot> pilot_;
 };
 

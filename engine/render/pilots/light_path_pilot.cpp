@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace blush {
@@ -24,14 +25,16 @@ struct Measured {
     int width, height;
     std::vector<double> mean, camera_variance;                 // of a sample
     std::array<std::vector<double>, shares.size() + 1> moment; // of light that light paths carry, for no light paths and for each share
-    double camera_work = 0, light_work = 0;                    // of a sample of each pixel, of as many light paths
+    std::vector<double> alone;                                 // moment of light that light paths alone find, at a share of 1
+    double camera_work = 0, light_work = 0, alone_work = 0;    // of a sample of each pixel, of as many light paths
 };
 
 Measured measured_image(int width, int height) {
-    Measured m{width, height, {}, {}, {}};
+    Measured m{width, height, {}, {}, {}, {}};
     const auto pixels = size_t(width) * size_t(height);
     m.mean.assign(pixels, 0);
     m.camera_variance.assign(pixels, 0);
+    m.alone.assign(pixels, 0);
     for (auto& moments : m.moment) moments.assign(pixels, 0);
     return m;
 }
@@ -49,6 +52,15 @@ void add_light_tile(const LightPathColumns& columns, double paths, Measured& m) 
     }
 }
 
+void add_alone_tile(const LightPathColumns& columns, double paths, Measured& m) {
+    constexpr double emitted = double(light_tiles) * tile_capacity;
+    for (const Splat& s : columns.splats)
+        if (const double l = double(luminance(s.radiance)); std::isfinite(l)) m.mean[size_t(s.pixel)] += l * paths / emitted;
+    for (const auto& moment : columns.moments)
+        if (const double squared = double(moment.amount) * double(moment.amount); std::isfinite(squared))
+            m.alone[size_t(moment.pixel)] += squared * paths / emitted;
+}
+
 void add_camera_tile(const TileJob& tile, const VariantTile& v, Measured& m) {
     for (int y = 0; y < tile.height; ++y)
         for (int x = 0; x < tile.width; ++x) {
@@ -60,28 +72,35 @@ void add_camera_tile(const TileJob& tile, const VariantTile& v, Measured& m) {
         }
 }
 
-// Variances and work of one share over those without light paths. `k`: index of Measured::moment.
-PilotFigures figures_of(const Measured& m, size_t k) {
-    double with = 0, without = 0, relative_with = 0, relative_without = 0;
+// Sums over the image, and over its tiles relative to their means.
+struct Sums {
+    double all = 0, relative = 0;
+};
+template <class Variance> Sums sums_of(const Measured& m, const Variance& variance) {
+    Sums sums;
     for (int y0 = 0; y0 < m.height; y0 += error_tile)
         for (int x0 = 0; x0 < m.width; x0 += error_tile) {
-            double sum = 0, count = 0, a = 0, b = 0;
+            double sum = 0, count = 0, of_tile = 0;
             for (int y = y0; y < std::min(y0 + error_tile, m.height); ++y)
                 for (int x = x0; x < std::min(x0 + error_tile, m.width); ++x) {
                     const size_t i = size_t(y) * size_t(m.width) + size_t(x);
                     sum += m.mean[i];
-                    a += m.camera_variance[i] + m.moment[k][i];
-                    b += m.camera_variance[i] + m.moment[0][i];
+                    of_tile += variance(i);
                     ++count;
                 }
             const double scale = 1 / (sum * sum / (count * count) + dark_squared);
-            with += a;
-            without += b;
-            relative_with += a * scale;
-            relative_without += b * scale;
+            sums.all += of_tile;
+            sums.relative += of_tile * scale;
         }
+    return sums;
+}
+
+// Variances and work of one share over those without light paths. `k`: index of Measured::moment.
+PilotFigures figures_of(const Measured& m, size_t k) {
+    const auto sums_at = [&](size_t moment) { return sums_of(m, [&](size_t i) { return m.camera_variance[i] + m.moment[moment][i]; }); };
+    const Sums with = sums_at(k), without = sums_at(0);
     const auto ratio = [](double x, double y) { return x > 0 && y > 0 ? x / y : 1.0; };
-    const double mse = ratio(with, without), relmse = ratio(relative_with, relative_without);
+    const double mse = ratio(with.all, without.all), relmse = ratio(with.relative, without.relative);
     // Without the typical tile: fireflies of the camera's paths are known from light paths, and what is left of them decides.
     return {.mse = mse,
             .relmse = relmse,
@@ -89,68 +108,118 @@ PilotFigures figures_of(const Measured& m, size_t k) {
             .work = k > 0 && m.camera_work > 0 ? 1 + double(shares[k - 1]) * m.light_work / m.camera_work : 1};
 }
 
+// The share of light paths that alone find their light with the smallest variance x work. `k`: as above, of the other light paths.
+float share_alone(const Measured& m, size_t k) {
+    float best = shares[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (const float share : shares) {
+        const Sums sums = sums_of(m, [&](size_t i) { return m.camera_variance[i] + m.moment[k][i] + m.alone[i] / double(share); });
+        const double cost = std::sqrt(sums.all * sums.relative) * (m.camera_work + double(share) * m.alone_work);
+        if (cost >= least) continue;
+        least = cost;
+        best = share;
+    }
+    return best;
+}
+
+// What the tiles are traced with.
+struct TileTracer {
+    const Kernel& kernel;
+    const Workers& workers;
+    std::vector<std::unique_ptr<TileScratch>>& scratch;
+    const std::function<bool()>& wanted;
+
+    // Calls task(tile number, scratch); false if `wanted` returned false.
+    template <class Task> bool for_each(size_t count, const Task& task) const {
+        return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
+            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
+            task(size_t(i), *scratch[worker]);
+        });
+    }
+    // Calls add(columns) for each tile, in order; `work`: of `paths` light paths. The same result.
+    template <class Add>
+    bool trace_light_paths(KernelContext context, const LightPathEmission& emission, float paths, double& work, const Add& add) const {
+        if (emission.empty()) return true;
+        constexpr int64_t all = int64_t(light_tiles) * tile_capacity;
+        SceneTables tables = *context.scene;
+        tables.emission = emission.tables(paths);
+        context.scene = &tables;
+        context.seed = light_seed;
+        std::vector<std::unique_ptr<LightPathColumns>> columns(light_tiles);
+        std::vector<double> works(light_tiles);
+        if (!for_each(light_tiles, [&](size_t i, TileScratch& tile) {
+                tile.light_paths = std::make_unique<LightPathColumns>();
+                tile.light_paths->measures = true;
+                tile.bounce_rays = tile.shadow_rays = 0;
+                trace_light_path_tile(context, kernel, emission, {0, all, int64_t(i) * tile_capacity, tile_capacity}, tile);
+                works[i] = double(std::exchange(tile.bounce_rays, 0)) + shadow_ray_cost * double(std::exchange(tile.shadow_rays, 0));
+                columns[i] = std::move(tile.light_paths);
+            }))
+            return false;
+        for (size_t i = 0; i < light_tiles; ++i) {
+            add(*columns[i]);
+            work += works[i] * double(paths) / double(all);
+        }
+        return true;
+    }
+};
+
 } // namespace
 
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
                                                   const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
                                                   const std::function<bool()>& wanted) {
-    LightPathPilot pilot{LightPathEmission(*context.scene, scene_sphere), 0, {}};
-    if (pilot.emission.empty()) return pilot;
+    const LightTables& lights = context.scene->lights;
+    SceneTables of_sized = *context.scene;
+    of_sized.emission_casters = of_sized.casters; // what panes reflect of lights that rays can hit is left to them
+    LightPathEmission sized(of_sized, scene_sphere, [&](int32_t light) { return !has_zero_size(lights.lights[light]); });
+    LightPathPilot pilot{.emission = {}, .zero_size = LightPathEmission::of_zero_size_lights(*context.scene, scene_sphere)};
+    if (sized.empty() && pilot.zero_size.empty()) return pilot;
     const PilotImage image = pilot_image(context.settings, pilot_pixels);
     const int width = image.width, height = image.height;
     const auto paths = float(width) * float(height);
-    SceneTables tables = *context.scene;
-    tables.emission = pilot.emission.tables(paths);
-    context.scene = &tables;
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
     context.settings.width = float(width);
     context.settings.height = float(height);
     Measured m = measured_image(width, height);
 
-    const auto for_each_tile = [&](size_t count, const auto& task) {
-        return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
-            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-            task(size_t(i), *scratch[worker]);
-        });
+    const TileTracer tracer{kernel, workers, scratch, wanted};
+    const auto trace = [&](const LightPathEmission& emission, double& work, auto add_tile) {
+        return tracer.trace_light_paths(context, emission, paths, work, [&](const LightPathColumns& c) { add_tile(c, double(paths), m); });
     };
-    context.seed = light_seed;
-    std::vector<std::unique_ptr<LightPathColumns>> of_light_tile(light_tiles);
-    std::vector<double> works(light_tiles);
-    if (!for_each_tile(light_tiles, [&](size_t i, TileScratch& tile) {
-            tile.light_paths = std::make_unique<LightPathColumns>();
-            tile.light_paths->measures = true;
-            tile.bounce_rays = tile.shadow_rays = 0;
-            trace_light_path_tile(context, kernel, pilot.emission,
-                                  {0, int64_t(light_tiles) * tile_capacity, int64_t(i) * tile_capacity, tile_capacity}, tile);
-            works[i] = double(std::exchange(tile.bounce_rays, 0)) + shadow_ray_cost * double(std::exchange(tile.shadow_rays, 0));
-            of_light_tile[i] = std::move(tile.light_paths);
-        }))
-        return std::nullopt;
-    for (int i = 0; i < light_tiles; ++i) {
-        add_light_tile(*of_light_tile[size_t(i)], double(paths), m);
-        m.light_work += works[size_t(i)] * double(paths) / (double(light_tiles) * tile_capacity);
-    }
+    if (!trace(sized, m.light_work, add_light_tile) || !trace(pilot.zero_size, m.alone_work, add_alone_tile)) return std::nullopt;
+    SceneTables tables = *context.scene;
+    tables.emission = sized.tables(paths);
+    context.scene = &tables;
     context.seed = camera_seed;
     const std::vector<TileJob>& tiles = image.tiles;
     std::vector<VariantTile> variants(tiles.size());
-    if (!for_each_tile(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
+    if (!tracer.for_each(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
         return std::nullopt;
     for (size_t i = 0; i < tiles.size(); ++i) {
         add_camera_tile(tiles[i], variants[i], m);
         m.camera_work += path_work(variants[i], 1) / pilot_samples;
     }
-    if (pilot.emission.has_zero_size_lights()) pilot.share = shares[0]; // at least
-    if (!std::ranges::any_of(m.moment[0], [](double moment) { return moment > 0; })) return pilot;
-    pilot.figures = figures_of(m, 1);
-    double least = 1;
-    for (size_t k = 1; k <= shares.size(); ++k) {
-        const PilotFigures figures = figures_of(m, k);
-        if (figures.cost() >= least) continue;
-        least = figures.cost();
-        pilot.share = shares[k - 1];
-        pilot.figures = figures;
+    size_t chosen = 0;
+    if (std::ranges::any_of(m.moment[0], [](double moment) { return moment > 0; })) {
+        pilot.figures = figures_of(m, 1);
+        double least = 1;
+        for (size_t k = 1; k <= shares.size(); ++k) {
+            const PilotFigures figures = figures_of(m, k);
+            if (figures.cost() >= least) continue;
+            least = figures.cost();
+            chosen = k;
+            pilot.share = shares[k - 1];
+            pilot.figures = figures;
+        }
     }
+    if (pilot.zero_size.empty()) {
+        pilot.emission = std::move(sized);
+        return pilot;
+    }
+    pilot.emission = LightPathEmission(*context.scene, scene_sphere);
+    pilot.zero_size_share = share_alone(m, chosen);
     return pilot;
 }
 

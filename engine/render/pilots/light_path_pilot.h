@@ -14,15 +14,18 @@
 namespace blush {
 
 struct LightPathPilot {
-    LightPathEmission emission;
-    float share = 0;                     // light paths for each camera path: 0, 1/8, ... 8; not 0 with lights of zero size
-    std::optional<PilotFigures> figures; // at that share; at 1/8 if it is 0. Empty: no light path reaches the image
+    LightPathEmission emission;               // of all lights
+    float share = 0;                          // light paths for each camera path: 0, 1/8, ... 8
+    std::optional<PilotFigures> figures = {}; // at that share; at 1/8 if it is 0. Empty: no path of a light with a size reaches the image
+    LightPathEmission zero_size = {};         // of lights without size alone; empty: none of them reaches a caster
+    float zero_size_share = 0;                // at least 1/8 if there are some
 };
 
 // Traces light paths and camera paths at a low resolution and chooses the share with the smallest variance x work. The second moment of
 // light that light paths can carry is measured by these paths for all shares at once: where the camera's strategies have the density `r`
 // times that of light paths, the moment of their combination is that of f^2 / (r + share) (balance heuristic, Veach 1997, 9.2). So it is
-// also known where no path of the camera has found the light. The rest is measured by the camera's paths.
+// also known where no path of the camera has found the light. The rest is measured by the camera's paths. Light paths of lights without
+// size are measured alone: no other strategy finds what they carry.
 //
 // `scene_sphere` contains all surfaces; other arguments and the result as learn_path_guiding(), with what was learned before.
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,

@@ -336,26 +336,50 @@ TEST(LightPaths, AreAlwaysUsedForLightsWithoutSize) {
     renderer.render(0, 2);
     const FeatureUse use = feature_line(renderer, "light paths");
     EXPECT_TRUE(use.used);
-    EXPECT_EQ(use.why, "they alone find caustics of lights of zero size; pilot: 0.125 for each camera path");
+    EXPECT_EQ(use.why, "they alone find caustics of lights of zero size, with 0.125 for each camera path");
     EXPECT_FALSE(use.pilot) << "there is nothing to compare with";
 }
 
-// What panes reflect of small lights is found by light paths; no surface samples directions towards them.
-TEST(LightPaths, AreEmittedToPanesBySmallLights) {
+// What panes reflect of lights without size is found by light paths; no surface samples directions towards them.
+TEST(LightPaths, AreEmittedToPanesByLightsWithoutSize) {
     Scene room;
     place(room, floor_quad(2), lambert(0.5f));
     Material pane = glass(0, 1.5f);
     pane.thickness = 0;
     place(room, floor_quad(0.8f, 1.6f), pane);
     place(room, ceiling_quad(0.5f, 2.5f), emitter(10));
-    EXPECT_EQ(Compiled(room).scene.tables().emission_casters.count, 0) << "the lamp is large";
-    for (const float radius : {0.f, 0.05f}) {
-        Scene lit = room;
-        place_light(lit, caustic_light(Light::Kind::point, 10, radius), at({0, 1, 0}));
-        EXPECT_EQ(Compiled(lit).scene.tables().emission_casters.count, 1);
-        EXPECT_EQ(Compiled(lit).scene.tables().casters.count, 0);
-        EXPECT_EQ(Compiled(lit).scene.tables().guides.casters.count, 0);
-    }
+    EXPECT_EQ(Compiled(room).scene.tables().emission_casters.count, 0) << "rays hit the lamp";
+    place_light(room, caustic_light(Light::Kind::point, 10), at({0, 1, 0}));
+    const Compiled lit(room);
+    EXPECT_EQ(lit.scene.tables().emission_casters.count, 1);
+    EXPECT_EQ(lit.scene.tables().casters.count, 0);
+    EXPECT_EQ(lit.scene.tables().guides.casters.count, 0);
+}
+
+// They add to the camera's samples, which are those without, bit for bit, with path reuse.
+TEST(LightPaths, OfLightsWithoutSizeLeaveTheSamplesOfTheCameraAsTheyAre) {
+    Scene room;
+    place(room, cube(true), lambert({0.8f, 0.6f, 0.4f}));
+    place(room, sphere(false), metal(0), at({-0.5f, -0.6f, -0.3f}, 0.3f));
+    place_light(room, caustic_light(Light::Kind::point, 2), at({0.2f, 0.6f, 0.1f}));
+    room.view = looking({0, 0, 0.9f}, {0.3f, -0.6f, -0.2f}, 0.6f); // without the ball
+    const auto rendered = [&](CausticStrategy caustics) {
+        RenderSettings settings = settings_for(32, 32, 8);
+        settings.caustics = caustics;
+        settings.reuse = 4;
+        PlaneSet planes;
+        planes.strategies = true;
+        Renderer renderer({.threads = 2, .planes = planes});
+        renderer.update(room, settings);
+        renderer.render(0, 8);
+        EXPECT_EQ(feature_line(renderer, "light paths").used, caustics != CausticStrategy::off);
+        EXPECT_TRUE(feature_line(renderer, "path reuse").used);
+        return renderer.resolve();
+    };
+    const Frame with = rendered(CausticStrategy::light_paths), without = rendered(CausticStrategy::off);
+    EXPECT_NE(with.rgba, without.rgba);
+    for (const FoundBy found_by : {FoundBy::camera_hit, FoundBy::nee})
+        EXPECT_EQ(with.strategies[size_t(found_by)], without.strategies[size_t(found_by)]);
 }
 
 TEST(LightPaths, AreLeftOutWhereALightHasItsOwnShadowCasters) {

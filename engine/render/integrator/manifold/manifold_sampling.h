@@ -20,6 +20,9 @@ namespace blush::inline BLUSH_ISA {
 
 constexpr int max_walk_iterations = 20;
 constexpr float least_scale = 1.f / 16; // of a Newton step
+// For the pilot, over that of solutions: light of zero-size lights that nothing else finds has no variance, but is missing, and this error
+// squared is the variance of so many samples.
+constexpr float unfound_density = 1.f / 64;
 
 // Density of emission of a solution (emission_density).
 template <Features S, class F> F solution_emission(const SceneTables& scene, const EmissionTables& emission, const ManifoldColumns& c,
@@ -255,7 +258,7 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     put_int<F>(c.root_chain, w.index, w.chain, lanes);
     if (c.measures) {
         const F density = density_without<S, F>(*context.scene, c, w, cosine, carries);
-        const F least = select(of_zero_size<F>(c, w), pdf * 1e-9f, F(1e-20f));
+        const F least = select(of_zero_size<F>(c, w), pdf * unfound_density, F(1e-20f));
         put<F>(c.base, w.index, luminance(found) * pdf / max(density, least), lanes);
     }
     w.state = select(carries, Int<F>(arrives), w.state);
