@@ -121,6 +121,7 @@ protected:
         RenderSettings s = settings_for(16, 16, strategy == Strategy::mis ? 1024 : 4096);
         s.mis_compensation = compensates;
         s.strategy = strategy;
+        s.caustics = CausticStrategy::off; // some lamps have no size: only MIS with light paths finds their caustics
         s.seed = 1 + uint32_t(strategy) + (compensates ? 8 : 0);
         return s;
     }
