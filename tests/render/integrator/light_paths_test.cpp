@@ -24,15 +24,17 @@ namespace {
 
 using namespace statistics;
 
-// Casters of caustics over a floor: a metal and a glass ball, both rough, so that each strategy finds their light.
-Scene rough_balls() {
+// Casters of caustics over a floor: a metal and a glass ball.
+Scene balls(float roughness) {
     Scene scene;
     place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
-    place(scene, sphere(false), metal(0.2f), at({-0.7f, 0.5f, 0}, 0.5f));
-    place(scene, sphere(false), glass(0.2f, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.5f));
+    place(scene, sphere(false), metal(roughness), at({-0.7f, 0.5f, 0}, 0.5f));
+    place(scene, sphere(false), glass(roughness, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.5f));
     scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
     return scene;
 }
+// Both rough, so that each strategy finds their light.
+Scene rough_balls() { return balls(0.2f); }
 // One for each kind of emission.
 std::vector<std::pair<const char*, Scene>> lit_scenes() {
     std::vector<std::pair<const char*, Scene>> scenes;
@@ -408,10 +410,12 @@ TEST(LightPaths, AgreeForEveryCamera) {
 }
 
 // Splats of one tile of light paths.
-std::vector<Splat> splats_of(const Scene& scene, const Kernel& kernel) {
+// `alone`: of lights without size (LightPathEmission::of_zero_size_lights).
+std::vector<Splat> splats_of(const Scene& scene, const Kernel& kernel, bool alone) {
     const RenderSettings settings = settings_for(36, 36, 1);
     const Compiled compiled(scene, settings);
-    const LightPathEmission emission = compiled.emission();
+    const LightPathEmission emission =
+        alone ? LightPathEmission::of_zero_size_lights(compiled.scene.tables(), compiled.scene.bounding_sphere()) : compiled.emission();
     SceneTables tables = compiled.scene.tables();
     tables.emission = emission.tables(36 * 36);
     const KernelContext context{&tables, &compiled.scene.accel(), kernel_settings(settings, 36, 36), 3};
@@ -423,9 +427,13 @@ std::vector<Splat> splats_of(const Scene& scene, const Kernel& kernel) {
 TEST(LightPaths, AreTheSameBitsFromEveryKernel) {
     auto scenes = lit_scenes();
     std::ranges::move(crossed_scenes(), std::back_inserter(scenes));
+    const char* alone_name = "alone, of a point";
+    Scene& smooth = scenes.emplace_back(alone_name, balls(0)).second;
+    place_light(smooth, caustic_light(Light::Kind::point, 20), at({0.2f, 2, 0.5f}));
     for (const auto& [name, scene] : scenes) {
         SCOPED_TRACE(name);
-        const std::vector<Splat> expected = splats_of(scene, kernels_of("scalar").back());
+        const bool alone = name == alone_name;
+        const std::vector<Splat> expected = splats_of(scene, kernels_of("scalar").back(), alone);
         ASSERT_GT(expected.size(), 100u);
         const Features needed = Compiled(scene, settings_for(36, 36, 1)).scene.features();
         size_t compared = 0;
@@ -433,7 +441,7 @@ TEST(LightPaths, AreTheSameBitsFromEveryKernel) {
             for (const Kernel& kernel : kernels_of(isa)) {
                 if (!kernel.trace_light_paths || !kernel.features.contains(needed)) continue;
                 ++compared;
-                const std::vector<Splat> splats = splats_of(scene, kernel);
+                const std::vector<Splat> splats = splats_of(scene, kernel, alone);
                 ASSERT_EQ(splats.size(), expected.size()) << kernel.isa << "/" << kernel.name;
                 EXPECT_EQ(std::memcmp(splats.data(), expected.data(), sizeof(Splat) * splats.size()), 0)
                     << kernel.isa << "/" << kernel.name;

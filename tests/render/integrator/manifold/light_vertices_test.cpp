@@ -28,7 +28,7 @@ public:
             trace_caustic_photons(context(tables, 3), kernels_of("scalar").back(), Workers(1), scratch, [] { return true; });
         seeds_ = ManifoldSeedTable::make(photons->chains, tables, {}).value();
         EXPECT_FALSE(seeds_.empty());
-        tables.manifolds = seeds_.tables(tables.guides.casters);
+        tables.manifolds = seeds_.tables(tables.casters);
         emission = LightPathEmission(tables, compiled_.bounding_sphere(),
                                      [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
         EXPECT_FALSE(emission.empty());
@@ -93,6 +93,15 @@ private:
     ManifoldSeedTable seeds_;
 };
 
+// Also with a point without size.
+std::vector<std::pair<const char*, Scene>> chained_scenes() {
+    auto scenes = walled_scenes();
+    Scene by_point = scenes[0].second;
+    place_light(by_point, caustic_light(Light::Kind::point, 20), at({0.1f, 2.2f, 0.5f}));
+    scenes.emplace_back("triangles and a point", by_point);
+    return scenes;
+}
+
 TEST(LightVertices, AgreeWithTheOtherStrategies) {
     for (const auto& [name, scene] : walled_scenes()) {
         SCOPED_TRACE(name);
@@ -111,7 +120,7 @@ TEST(LightVertices, AgreeWithTheOtherStrategies) {
 
 // Emission densities of the weights are wrong by factors; those of the light paths are not.
 TEST(LightVertices, WeightsAddUpForAnyDensities) {
-    for (const auto& [name, scene] : walled_scenes()) {
+    for (const auto& [name, scene] : chained_scenes()) {
         SCOPED_TRACE(name);
         const ChainedScene chained(scene, settings_for(24, 24, 7));
         const auto without = chained.quarters(chained.tables, 32, 1);
@@ -170,7 +179,7 @@ TEST(LightVertices, AreUsedWhereTheyPay) {
 }
 
 TEST(LightVertices, AreTheSameBitsFromEveryKernel) {
-    for (const auto& [name, scene] : walled_scenes()) {
+    for (const auto& [name, scene] : chained_scenes()) {
         const ChainedScene chained(scene, settings_for(24, 24, 7));
         const auto radiance_of = [&](const SceneTables& tables, const Kernel& kernel) {
             const auto tile = chained.render(tables, kernel, 3);
