@@ -70,7 +70,7 @@ void RenderScene::aim(std::span<const Vec3> gains) {
 }
 
 // Strategy::bsdf and CausticStrategy::off exclude casters. Diffuse surfaces sample directions towards them only if rays can find light
-// there. What panes reflect is left to them, but for lights that they cannot hit.
+// there. Panes are casters for lights without size alone: of other lights, rays find the reflection.
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
     const bool can_be_hit = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty() || narrow_sky;

@@ -84,15 +84,6 @@ PhotonSource photon_source(const SceneTables& scene) {
     return source;
 }
 
-// Calls task(i, scratch) for each tile; false if `wanted` returned false.
-template <class Task> bool for_each_pilot_tile(size_t count, const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                                               const std::function<bool()>& wanted, const Task& task) {
-    return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
-        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-        task(size_t(i), *scratch[worker]);
-    });
-}
-
 KernelContext pilot_context(KernelContext context) {
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
@@ -125,7 +116,7 @@ std::shared_ptr<const CausticPhotons> trace_caustic_photons(KernelContext contex
     const int64_t tiles = std::clamp(pixels / pixels_per_photon_tile, min_photon_tiles, max_photon_tiles);
     std::vector<std::vector<GuidingTrial>> of_tile((size_t(tiles)));
     std::vector<std::vector<ChainPhoton>> chains_of_tile((size_t(tiles)));
-    const bool traced = for_each_pilot_tile(of_tile.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
+    const bool traced = TileRunner{workers, scratch, wanted}.for_each(of_tile.size(), [&](size_t i, TileScratch& tile) {
         tile.photons = std::make_unique<PhotonTrials>();
         for (uint32_t k = 0; k < uint32_t(tile_capacity); ++k)
             tile.photons->emitted.push_back(source.emit(uint32_t(i) * uint32_t(tile_capacity) + k));
@@ -148,7 +139,7 @@ std::optional<GuidingField> learn_path_guiding(KernelContext context, const Caus
     context.settings.height = float(image.height);
     context.seed = path_seed;
     std::vector<std::vector<GuidingTrial>> of_tile(image.tiles.size());
-    const bool measured = for_each_pilot_tile(image.tiles.size(), workers, scratch, wanted, [&](size_t i, TileScratch& tile) {
+    const bool measured = TileRunner{workers, scratch, wanted}.for_each(image.tiles.size(), [&](size_t i, TileScratch& tile) {
         tile.guiding = std::make_unique<GuidingTrials>();
         kernel.render(context, image.tiles[i], tile);
         of_tile[i] = std::move(std::exchange(tile.guiding, nullptr)->all);

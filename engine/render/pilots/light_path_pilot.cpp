@@ -122,47 +122,32 @@ float share_alone(const Measured& m, size_t k) {
     return best;
 }
 
-// What the tiles are traced with.
-struct TileTracer {
-    const Kernel& kernel;
-    const Workers& workers;
-    std::vector<std::unique_ptr<TileScratch>>& scratch;
-    const std::function<bool()>& wanted;
-
-    // Calls task(tile number, scratch); false if `wanted` returned false.
-    template <class Task> bool for_each(size_t count, const Task& task) const {
-        return workers.for_each(int64_t(count), wanted, [&](int64_t i, unsigned worker) {
-            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-            task(size_t(i), *scratch[worker]);
-        });
+// Calls add(columns) for each tile, in order; `work`: of `paths` light paths. False if the tiles are not wanted any more.
+template <class Add> bool trace_light_tiles(const TileRunner& runner, KernelContext context, const Kernel& kernel,
+                                            const LightPathEmission& emission, float paths, double& work, const Add& add) {
+    if (emission.empty()) return true;
+    constexpr int64_t all = int64_t(light_tiles) * tile_capacity;
+    SceneTables tables = *context.scene;
+    tables.emission = emission.tables(paths);
+    context.scene = &tables;
+    context.seed = light_seed;
+    std::vector<std::unique_ptr<LightPathColumns>> columns(light_tiles);
+    std::vector<double> works(light_tiles);
+    if (!runner.for_each(light_tiles, [&](size_t i, TileScratch& tile) {
+            tile.light_paths = std::make_unique<LightPathColumns>();
+            tile.light_paths->measures = true;
+            tile.bounce_rays = tile.shadow_rays = 0;
+            trace_light_path_tile(context, kernel, emission, {0, all, int64_t(i) * tile_capacity, tile_capacity}, tile);
+            works[i] = double(std::exchange(tile.bounce_rays, 0)) + shadow_ray_cost * double(std::exchange(tile.shadow_rays, 0));
+            columns[i] = std::move(tile.light_paths);
+        }))
+        return false;
+    for (size_t i = 0; i < light_tiles; ++i) {
+        add(*columns[i]);
+        work += works[i] * double(paths) / double(all);
     }
-    // Calls add(columns) for each tile, in order; `work`: of `paths` light paths. The same result.
-    template <class Add>
-    bool trace_light_paths(KernelContext context, const LightPathEmission& emission, float paths, double& work, const Add& add) const {
-        if (emission.empty()) return true;
-        constexpr int64_t all = int64_t(light_tiles) * tile_capacity;
-        SceneTables tables = *context.scene;
-        tables.emission = emission.tables(paths);
-        context.scene = &tables;
-        context.seed = light_seed;
-        std::vector<std::unique_ptr<LightPathColumns>> columns(light_tiles);
-        std::vector<double> works(light_tiles);
-        if (!for_each(light_tiles, [&](size_t i, TileScratch& tile) {
-                tile.light_paths = std::make_unique<LightPathColumns>();
-                tile.light_paths->measures = true;
-                tile.bounce_rays = tile.shadow_rays = 0;
-                trace_light_path_tile(context, kernel, emission, {0, all, int64_t(i) * tile_capacity, tile_capacity}, tile);
-                works[i] = double(std::exchange(tile.bounce_rays, 0)) + shadow_ray_cost * double(std::exchange(tile.shadow_rays, 0));
-                columns[i] = std::move(tile.light_paths);
-            }))
-            return false;
-        for (size_t i = 0; i < light_tiles; ++i) {
-            add(*columns[i]);
-            work += works[i] * double(paths) / double(all);
-        }
-        return true;
-    }
-};
+    return true;
+}
 
 } // namespace
 
@@ -171,7 +156,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
                                                   const std::function<bool()>& wanted) {
     const LightTables& lights = context.scene->lights;
     SceneTables of_sized = *context.scene;
-    of_sized.emission_casters = of_sized.casters; // what panes reflect of lights that rays can hit is left to them
+    of_sized.emission_casters = of_sized.casters; // without panes: rays find what these reflect of lights with a size
     LightPathEmission sized(of_sized, scene_sphere, [&](int32_t light) { return !has_zero_size(lights.lights[light]); });
     LightPathPilot pilot{.emission = {}, .zero_size = LightPathEmission::of_zero_size_lights(*context.scene, scene_sphere)};
     if (sized.empty() && pilot.zero_size.empty()) return pilot;
@@ -184,9 +169,10 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
     context.settings.height = float(height);
     Measured m = measured_image(width, height);
 
-    const TileTracer tracer{kernel, workers, scratch, wanted};
+    const TileRunner runner{workers, scratch, wanted};
     const auto trace = [&](const LightPathEmission& emission, double& work, auto add_tile) {
-        return tracer.trace_light_paths(context, emission, paths, work, [&](const LightPathColumns& c) { add_tile(c, double(paths), m); });
+        return trace_light_tiles(runner, context, kernel, emission, paths, work,
+                                 [&](const LightPathColumns& c) { add_tile(c, double(paths), m); });
     };
     if (!trace(sized, m.light_work, add_light_tile) || !trace(pilot.zero_size, m.alone_work, add_alone_tile)) return std::nullopt;
     SceneTables tables = *context.scene;
@@ -195,7 +181,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
     context.seed = camera_seed;
     const std::vector<TileJob>& tiles = image.tiles;
     std::vector<VariantTile> variants(tiles.size());
-    if (!tracer.for_each(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
+    if (!runner.for_each(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
         return std::nullopt;
     for (size_t i = 0; i < tiles.size(); ++i) {
         add_camera_tile(tiles[i], variants[i], m);

@@ -63,33 +63,16 @@ VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns
     return sums;
 }
 
-// What the tiles are rendered with.
-struct TileRenderer {
-    const Kernel& kernel;
-    const Workers& workers;
-    std::vector<std::unique_ptr<TileScratch>>& scratch;
-    const std::function<bool()>& wanted;
-
-    // Calls render(tile number, scratch); false if `wanted` returned false.
-    template <class Render> bool for_each(size_t tiles, const Render& render) const {
-        return workers.for_each(int64_t(tiles), wanted, [&](int64_t i, unsigned worker) {
-            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-            render(size_t(i), *scratch[worker]);
-        });
-    }
-};
-
 // Renders the tiles of manifold sampling with light vertices, too. `context`: with manifold sampling. False if `wanted` returned false.
-bool measure_light_vertices(KernelContext context, const PilotImage& image, std::span<const MeasuredTile> without,
-                            const TileRenderer& renderer, ManifoldPilot& pilot) {
+bool measure_light_vertices(KernelContext context, const PilotImage& image, std::span<const MeasuredTile> without, const Kernel& kernel,
+                            const TileRunner& runner, ManifoldPilot& pilot) {
     SceneTables tables = *context.scene;
     tables.light_vertices = pilot.light_vertices();
     if (tables.light_vertices.empty()) return true;
     context.scene = &tables;
     std::vector<VertexTile> measured(image.tiles.size());
-    if (!renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
-            measured[i] = measure_ratios(context, renderer.kernel, image.tiles[i], tile);
-        }))
+    if (!runner.for_each(measured.size(),
+                         [&](size_t i, TileScratch& tile) { measured[i] = measure_ratios(context, kernel, image.tiles[i], tile); }))
         return false;
     double log_ratio = 0;
     int64_t ratios = 0;
@@ -101,8 +84,8 @@ bool measure_light_vertices(KernelContext context, const PilotImage& image, std:
     pilot.usual_ratio = float(std::exp(log_ratio / double(ratios)));
     tables.light_vertices = pilot.light_vertices();
     const double ray_cost = ray_cost_of(context);
-    if (!renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
-            const VariantTile with = render_variant(context, renderer.kernel, image.tiles[i], tile);
+    if (!runner.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
+            const VariantTile with = render_variant(context, kernel, image.tiles[i], tile);
             VariantPair& pair = measured[i].pair;
             pair.without = without[i].pair.with;
             pair.with = sums_of(with, without[i].mean);
@@ -147,9 +130,9 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     tables.manifolds.guides_without = tables.guides;
     tables.guides = {};
     const double ray_cost = ray_cost_of(context);
-    const TileRenderer renderer{kernel, workers, scratch, wanted};
+    const TileRunner runner{workers, scratch, wanted};
     std::vector<MeasuredTile> measured(image.tiles.size());
-    const bool done = renderer.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
+    const bool done = runner.for_each(measured.size(), [&](size_t i, TileScratch& tile) {
         const TileJob& job = image.tiles[i];
         MeasuredTile& m = measured[i];
         tile.manifolds = std::make_unique<ManifoldColumns>();
@@ -177,7 +160,7 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     if (solutions == 0) return pilot;
     pilot.figures = figures_of(pairs);
     pilot.endless = double(cut) > largest_cut_share * double(solutions);
-    if (!measure_light_vertices(with, image, measured, renderer, pilot)) return std::nullopt;
+    if (!measure_light_vertices(with, image, measured, kernel, runner, pilot)) return std::nullopt;
     return pilot;
 }
 

@@ -20,15 +20,10 @@ std::optional<PortalPilot> learn_portals(KernelContext context, const Kernel& ke
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
-    const auto for_each_tile = [&](const auto& task) {
-        return workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
-            if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-            task(size_t(i), *scratch[worker]);
-        });
-    };
+    const TileRunner runner{workers, scratch, wanted};
     context.seed = portal_learning_seed;
     std::vector<std::vector<EscapeTrial>> of_tile(tiles.size());
-    const bool learned = for_each_tile([&](size_t i, TileScratch& tile) {
+    const bool learned = runner.for_each(tiles.size(), [&](size_t i, TileScratch& tile) {
         tile.escapes = std::make_unique<EscapeTrials>();
         kernel.render(context, tiles[i], tile);
         of_tile[i] = std::move(std::exchange(tile.escapes, nullptr)->all);
@@ -46,7 +41,7 @@ std::optional<PortalPilot> learn_portals(KernelContext context, const Kernel& ke
     with_portals.scene = &tables;
     const double ray_cost = ray_cost_of(context);
     std::vector<VariantPair> pairs(tiles.size());
-    const bool measured = for_each_tile([&](size_t i, TileScratch& tile) {
+    const bool measured = runner.for_each(tiles.size(), [&](size_t i, TileScratch& tile) {
         const VariantTile with = render_variant(with_portals, kernel, tiles[i], tile);
         const VariantTile without = render_variant(context, kernel, tiles[i], tile);
         const Vec3d mean = mean_of(std::array{&with, &without});

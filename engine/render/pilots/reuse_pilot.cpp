@@ -48,14 +48,13 @@ std::optional<PilotFigures> measure_path_reuse(const KernelContext& context, con
     const double ray_cost = ray_cost_of(context);
     std::array<std::vector<VariantPair>, automatic_group_sizes.size()> measured;
     for (auto& of_size : measured) of_size.resize(tiles.size());
-    const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
-        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-        const TileJob& tile = tiles[size_t(i)];
-        const VariantTile without = render_variant(apart, kernel, tile, *scratch[worker]);
+    const bool all = TileRunner{workers, scratch, wanted}.for_each(tiles.size(), [&](size_t i, TileScratch& tile_scratch) {
+        const TileJob& tile = tiles[i];
+        const VariantTile without = render_variant(apart, kernel, tile, tile_scratch);
         std::vector<VariantTile> with;
-        for (const KernelContext& size : sizes) with.push_back(render_variant(size, kernel, tile, *scratch[worker]));
+        for (const KernelContext& size : sizes) with.push_back(render_variant(size, kernel, tile, tile_scratch));
         const PairsOfSizes pairs = compare(without, with, ray_cost);
-        for (size_t k = 0; k < pairs.size(); ++k) measured[k][size_t(i)] = pairs[k];
+        for (size_t k = 0; k < pairs.size(); ++k) measured[k][i] = pairs[k];
     });
     if (!all) return std::nullopt;
     std::optional<PilotFigures> best;

@@ -19,12 +19,10 @@ std::optional<LightVisibility> learn_light_visibility(KernelContext context, con
     context.settings.max_bounces = pilot_max_bounces;
     const std::vector<TileJob> tiles = pilot_tiles(int(context.settings.width), int(context.settings.height));
     std::vector<std::vector<ShadowTrial>> of_tile(tiles.size());
-    const bool all = workers.for_each(int64_t(tiles.size()), wanted, [&](int64_t i, unsigned worker) {
-        if (!scratch[worker]) scratch[worker] = std::make_unique<TileScratch>();
-        TileScratch& tile = *scratch[worker];
+    const bool all = TileRunner{workers, scratch, wanted}.for_each(tiles.size(), [&](size_t i, TileScratch& tile) {
         tile.trials = std::make_unique<std::vector<ShadowTrial>>();
-        kernel.render(context, tiles[size_t(i)], tile);
-        of_tile[size_t(i)] = std::move(*std::exchange(tile.trials, nullptr));
+        kernel.render(context, tiles[i], tile);
+        of_tile[i] = std::move(*std::exchange(tile.trials, nullptr));
     });
     if (!all) return std::nullopt;
     std::vector<ShadowTrial> trials;
