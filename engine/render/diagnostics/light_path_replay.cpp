@@ -28,6 +28,7 @@ ReplayedLightPath replay_light_path(const KernelContext& context, const EmittedP
     ReplayedLightPath replayed{.emitted = emitted};
     PathQueue *now = &scratch.paths[0], *next = &scratch.paths[1];
     begin_light_paths(columns, *now);
+    begin_light_chains<s>(*context.scene, scratch, *now);
     int queue = 0;
     for (int bounce = 0; now->size > 0 && bounce < context.settings.max_bounces && bounce <= max_path_length; ++bounce) {
         trace_light_rays<s, float>(context, scratch, *now, *next, bounce);
@@ -39,6 +40,7 @@ ReplayedLightPath replay_light_path(const KernelContext& context, const EmittedP
             add_splats<s, float>(context, scratch, bounce);
             vertex.light = light_of(columns.splats, pixel, first);
         }
+        weigh_shared_chains<s, float>(context, scratch, *next, *now);
         replayed.light = replayed.light + vertex.light;
         replayed.vertices.push_back(vertex);
         std::swap(now, next);

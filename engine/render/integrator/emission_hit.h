@@ -6,48 +6,12 @@
 #include "render/integrator/light_path_weights.h"
 #include "render/integrator/light_sampling.h"
 #include "render/integrator/links.h"
+#include "render/integrator/manifold/path_chain.h"
 #include "render/integrator/mis_weights.h"
 #include "render/integrator/path.h"
 
 namespace blush::inline BLUSH_ISA {
 
-// True if some surface samples manifolds (manifold_sampling.h).
-template <Features S> bool samples_manifolds(const SceneTables& scene) {
-    if constexpr (S.has(Feature::light_paths)) return !scene.manifolds.empty();
-    return false;
-}
-// Paths whose diffuse vertex at this bounce may begin a chain: with light paths, those that light paths cannot sample, as the camera sees
-// their first vertex through glass or a mirror.
-template <Features S, class F> Mask<F> starts_chains(const SceneTables& scene, const Path<F>& path, int bounce) {
-    if (!samples_manifolds<S>(scene)) return Mask<F>(false);
-    if (scene.emission.empty()) return Mask<F>(true);
-    return Mask<F>(bounce > 0) && path.light_ratio == F(0.f);
-}
-// Path::chain: in its low byte 1 behind a Lambertian surface, and 1 more for each event; above the events (shading/manifold_seeds.h).
-template <class F> Int<F> chain_length(const Int<F>& chain) { return (chain & 0xff) - 1; }
-template <class F> Int<F> begun_chain() { return Int<F>(1); }
-template <class F> Int<F> longer_chain(const Int<F>& chain, const Mask<F>& refracts) {
-    Int<F> place = Int<F>(0x100);
-    for (int i = 0; i < max_chain_events; ++i) place = select(as_mask(chain_length<F>(chain) > i), Int<F>(place << 1), place);
-    return (chain + 1) | select(refracts, place, Int<F>(0));
-}
-template <class F> Mask<F> may_grow(const Int<F>& chain) {
-    return as_mask(chain > 0) && as_mask(chain_length<F>(chain) <= max_chain_events);
-}
-template <class F> Mask<F> is_chain(const Int<F>& chain) {
-    return as_mask(chain_length<F>(chain) > 0) && as_mask(chain_length<F>(chain) <= max_chain_events);
-}
-// Light that manifold sampling finds, too, from the diffuse surface before (manifold_hits.h).
-template <Features S, class F>
-Mask<F> found_by_manifolds(const SceneTables& scene, const Path<F>& path, const Int<F>& light, const Mask<F>& active) {
-    if constexpr (S.has(Feature::light_paths)) {
-        if (!samples_manifolds<S>(scene)) return Mask<F>(false);
-        const Mask<F> chained = active && is_chain<F>(path.chain) && as_mask(light >= 0) && as_mask(light < scene.manifolds.lights);
-        if (!any(chained)) return chained;
-        return chained && as_mask(gather(scene.manifolds.group_of_light, select(chained, light, Int<F>(0))) >= 0);
-    } else
-        return Mask<F>(false);
-}
 // The MIS weight of emission at `position` beside light paths (light_path_weights.h), which do not find that of manifold sampling.
 template <Features S, class F> F beside_light_paths(const SceneTables& scene, const F& weight, const Path<F>& path, const Int<F>& light,
                                                     const Vec<F>& position, const Vec<F>& normal, const Mask<F>& active) {

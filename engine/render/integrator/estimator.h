@@ -108,7 +108,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     out.crosses = indirect.outward != (dot(side.wo, p.shading.ng) > F(0.f));
     out.internal = side.solid && !side.front && !out.crosses;
     next_path<S, F>(path, p, setup, indirect, next_beta, cone, out.next);
-    if constexpr (S.has(Feature::light_paths)) out.next.chain = next_chain<S, F>(scene, path, p, indirect, out, bounce);
+    if constexpr (S.has(Feature::light_paths)) out.next.chain = chain_after<S, F>(scene, path, p, indirect, out, bounce);
     if (beside) continue_ratios<S, F>(scene, settings, p, material, side.wo, indirect, light_ratio, bounce, out.next);
     return out;
 }

@@ -43,6 +43,7 @@ template <class F> F camera_density(const CameraRecord& camera, const EstimatorS
 template <class F> struct ViewedPoint {
     BsdfValue<F> value; // f |cos(wi)|, and the pdf of wi; 0 where shading and geometric normal disagree about the side of wi
     F pdf;              // of wi with path guiding
+    Mask<F> behind;     // ShadingFrame::behind
 };
 // In the lanes of `active`. `known`: the BSDF as seen from anywhere.
 template <Features S, class F>
@@ -56,6 +57,7 @@ template <Features S, class F>
     const Mask<F> lambertian = is_lambertian<S, F>(known);
     const F cosine = dot(wi, frame.ns);
     ViewedPoint<F> p;
+    p.behind = frame.behind;
     p.value.pdf = cosine_hemisphere_pdf(cosine);
     p.value.f_cos = known.diffuse * p.value.pdf;
     if (any(active && !lambertian)) {

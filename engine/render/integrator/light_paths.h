@@ -2,6 +2,7 @@
 // 10.2, there "light tracing"). Weights: light_path_weights.h; emission: light_emission.h.
 #pragma once
 
+#include "render/integrator/manifold/shared_chains.h"
 #include "render/integrator/path_queues.h"
 #include "render/integrator/scatter_stages.h"
 #include "render/integrator/splat_pixel.h"
@@ -139,7 +140,9 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
         if (scene.panes) value = value * (1.f / max(v.scatter_share, F(0x1p-24f)));
     const F seen = view.pdf / v.cosine;
     const F hit = v.hit_ratio * seen * per_path, nee = (bounce == 0 ? v.nee_ratio : v.nee_ratio * seen) * per_path;
-    const F weight = 1.f / (1.f + hit * hit + nee * nee);
+    F weight = 1.f / (1.f + hit * hit + nee * nee);
+    if (const Mask<F> shared = seen_by_camera && has_flag<F>(path.chain, shares_chains); samples_manifolds<S>(scene) && any(shared))
+        weight = select(shared, weight_of_shared_chains<F>(*scratch.light_vertices, path, hit, shared), weight);
     const Mask<F> connects = seen_by_camera && has_light(value);
     if (!any(connects)) return;
     Step<F> step;
@@ -176,12 +179,14 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     Vec<F> beta = splat<F>(0.f);
     F hit_ratio = v.hit_ratio, nee_ratio = bounce == 0 ? F(0.f) : v.nee_ratio;
     const Mask<F> dense = v.scatters && !s.delta;
+    Mask<F> begins_chains = Mask<F>(false); // of the camera
     if (any(dense)) {
         const ViewedPoint<F> view =
             view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.side.wo, true, dense);
         const F seen = view.pdf / v.cosine, forward = s.pdf / cosine;
         const F factor = seen / max(forward, F(1e-30f));
         beta = view.value.f_cos * (1.f / (v.cosine * max(forward, F(1e-30f))));
+        begins_chains = dense && is_lambertian<S, F>(v.bsdf) && !view.behind;
         hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
         nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
     }
@@ -190,6 +195,14 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
     if (bounce == 0 && context.scene->emission.alone) continues = continues && s.delta; // else NEE finds the light
+    Int<F> chain = Int<F>(0);
+    if (samples_manifolds<S>(*context.scene)) {
+        const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)), internal = v.side.solid && !v.side.front && !crosses;
+        const ChainEvent<F> event{s.delta, crosses, internal, has_chains<F>(*context.scene, v.surface.material), begins_chains};
+        if (const Mask<F> lit = v.scatters && is_lit_by_chain<F>(path.chain, event); any(lit))
+            keep_lit_vertices<F>(*scratch.light_vertices, path, v.surface, v.shading, v.side.wo, lit);
+        chain = next_light_chain<F>(path.chain, event);
+    }
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {
         const Mask<F> applied = dense || Mask<F>(bounce + 1 >= first_rr_bounce_at_delta);
         const F q = select(applied, survival_probability(settings.roulette, beta), F(1.f));
@@ -199,6 +212,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     Path<F> p = path;
     p.ray = {offset_origin(v.surface.position, v.surface.error, v.shading.ng, outward), wi};
     p.beta = beta;
+    p.chain = chain;
     const unsigned lanes = bits(continues);
     if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, select(v.dispersed, Int<F>(1), Int<F>(0)), lanes);
     compress(scratch.light_paths->hit_ratio[queue] + next.size, min(hit_ratio, F(1e30f)), lanes);
@@ -266,6 +280,7 @@ template <Features S, class F> void trace_light_paths(const KernelContext& conte
     PathQueue* now = &scratch.paths[0];
     PathQueue* next = &scratch.paths[1];
     begin_light_paths(columns, *now);
+    begin_light_chains<S>(*context.scene, scratch, *now);
     int queue = 0; // number of `now`
     for (int bounce = 0; now->size > 0 && bounce < context.settings.max_bounces; ++bounce) {
         if (bounce > max_path_length) {
@@ -278,6 +293,7 @@ template <Features S, class F> void trace_light_paths(const KernelContext& conte
         shade_light_paths<S, F>(context, scratch, *now, *next, queue, bounce);
         scratch.shadow_rays += scratch.shadows.size;
         if (scratch.shadows.size > 0) add_splats<S, F>(context, scratch, bounce);
+        weigh_shared_chains<S, F>(context, scratch, *next, *now);
         std::swap(now, next);
     }
 }

@@ -232,14 +232,14 @@ template <Features S, class F> [[gnu::always_inline]] inline void next_path(cons
     }
 }
 
-// Path::chain behind this vertex. A reflection within a solid ends a chain (manifold_sampling.h).
-template <Features S, class F> Int<F> next_chain(const SceneTables& scene, const Path<F>& path, const ShadingPoint<F>& p,
-                                                 const IndirectSample<F>& s, const Step<F>& step, int bounce) {
+// Path::chain behind this vertex.
+template <Features S, class F> Int<F> chain_after(const SceneTables& scene, const Path<F>& path, const ShadingPoint<F>& p,
+                                                  const IndirectSample<F>& s, const Step<F>& step, int bounce) {
     if (!samples_manifolds<S>(scene)) return Int<F>(0);
-    const Int<F> flags = gather_field(scene.materials.materials, &MaterialRecord::flags, p.surface.material);
     const Mask<F> begins = p.lambertian && !p.shading.behind && starts_chains<S, F>(scene, path, bounce);
-    const Mask<F> goes_on = s.bsdf.delta && !step.internal && may_grow<F>(path.chain) && as_mask((flags & int32_t(material_chains)) != 0);
-    return select(goes_on, longer_chain<F>(path.chain, step.crosses), select(begins, begun_chain<F>(), Int<F>(0)));
+    const Mask<F> chains = has_chains<F>(scene, p.surface.material);
+    return next_chain<F>(path.chain, {s.bsdf.delta, step.crosses, step.internal, chains, begins},
+                         Mask<F>(bounce > 0) && path.light_ratio > F(0.f));
 }
 
 // True if samples are weighted beside light paths (light_path_weights.h); the next three functions are for them.

@@ -142,7 +142,7 @@ template <Features S, class F> void pass_panes(const KernelContext& context, Til
         now.beta_g[k] = lane(beta.y, i);
         now.beta_b[k] = lane(beta.z, i);
         // Chains of manifold sampling pass no panes.
-        if constexpr (S.has(Feature::light_paths)) now.chain[k] = 0;
+        if constexpr (S.has(Feature::light_paths)) now.chain[k] &= chain_flags;
     });
     const Vec<F> from = offset_origin(p.position, p.error, p.ng, Mask<F>(false));
     const unsigned b = bits(passes);

@@ -14,9 +14,9 @@ struct Columns3 {
 
 // Paths of the camera that find the same light by chance (render/integrator/manifold/manifold_hits.h).
 struct ManifoldHitColumns {
-    // By slot: the last diffuse vertex, the direction in which the path has left it, and Path::light_ratio there.
+    // By slot: the last diffuse vertex, the direction in which the path has left it, and light_ratio there.
     Columns3 origin, ns, direction;
-    Column<float> start_ratio, start_arrival; // start_arrival: as ManifoldColumns::arrival
+    Column<float> start_ratio, start_arrival; // as ManifoldColumns::light_ratio and arrival
     // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
     int size = 0;
     Column<int32_t> slot, light, chain;
@@ -30,6 +30,7 @@ struct ManifoldColumns {
     // The receiver: origin of its rays, normals, throughput times reflectance over pi.
     Columns3 origin, ns, ng, reflected;
     Column<float> arrival; // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
+    Column<float> light_ratio; // light_ratio_behind() of the path; only beside light paths
     Column<int32_t> slot;
     // The light: point (at infinity: direction), normal, radiance, density with which the point is sampled (1/m^2; at infinity 1/sr),
     // record; distance from the point below which a walk has converged.
@@ -57,13 +58,13 @@ struct ManifoldColumns {
 
     Column<int32_t> live;
 
-    // True while the chains of light vertices are traced again: their densities are kept instead of light.
-    bool weighs_light_vertices = false;
+    // What is traced again: hits, for their light, or the chains of light vertices or light paths, of which densities are kept.
+    enum class Traced { hits, light_vertices, light_paths } traced = Traced::hits;
 
     // For the pilot. Accumulated by slot: second moment of the light that was found, and of the same light if paths of the camera found it;
     // the latter over the luminance found, by receiver.
     bool measures = false;
-    Column<float> own_moment, base_moment, base, light_ratio; // light_ratio: of the path that ends at the receiver
+    Column<float> own_moment, base_moment, base;
     int64_t solutions = 0, cut = 0;                           // accumulated; cut: given up after too many trials
 
     void begin_measuring(int slots) {

@@ -106,11 +106,6 @@ template <Features S, class F>
 // Traces the chains of the light vertices again, from their end, for the density of manifold sampling there.
 template <Features S, class F> void weigh_light_vertices(const KernelContext& context, TileScratch& scratch, int paths, PathQueue& rays) {
     const LightVertexColumns& v = *scratch.light_vertices;
-    ManifoldColumns& c = *scratch.manifolds;
-    ManifoldHitColumns& hits = c.hits;
-    const auto copy = [](Columns3& to, int i, const Columns3& from, int k) {
-        to.x[i] = from.x[k], to.y[i] = from.y[k], to.z[i] = from.z[k];
-    };
     for (int slot = 0; slot < paths; ++slot) {
         if (v.chain[slot] == 0) continue;
         if (const int32_t light = v.light[slot];
@@ -118,22 +113,9 @@ template <Features S, class F> void weigh_light_vertices(const KernelContext& co
             scratch.light_vertices->chain[slot] = 0;
             continue;
         }
-        const int k = hits.size++;
-        hits.slot[k] = slot;
-        hits.light[k] = v.light[slot];
-        hits.chain[k] = v.chain[slot];
-        hits.random[k] = 0;
-        copy(hits.target, k, v.target, slot);
-        copy(hits.emitted, k, v.reflected, slot);
-        copy(hits.origin, slot, v.origin, slot);
-        copy(hits.ns, slot, v.ns, slot);
-        copy(hits.direction, slot, v.wi, slot);
-        hits.start_ratio[slot] = hits.start_arrival[slot] = 0;
+        queue_light_vertex(scratch.manifolds->hits, v, slot);
     }
-    if (hits.size == 0) return;
-    c.weighs_light_vertices = true;
-    retrace_hits<S, F>(context, scratch, rays, 0);
-    c.weighs_light_vertices = false;
+    retrace_light_vertices<S, F>(context, scratch, rays, ManifoldColumns::Traced::light_vertices);
 }
 
 // The light vertices of the paths in scratch.paths[0], which are camera rays. Overwrites the other queue.
@@ -157,7 +139,8 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void queue_connec
                                                                                       const Path<F>& path, const Step<F>& step, int bounce,
                                                                                       const Mask<F>& active) {
     const ReuseVertex<F>& x = step.reuse_vertex;
-    const Mask<F> starts = active && x.lambertian && starts_chains<S, F>(*context.scene, path, bounce);
+    const Mask<F> starts =
+        active && x.lambertian && is_left_by_light_paths<F>(*context.scene, path, bounce) && !has_flag<F>(path.chain, shares_chains);
     if (!any(starts)) return;
     const Int<F> slot = select(starts, path.slot, Int<F>(0)), events = gather(c.chain, slot) >> chain_count_shift;
     const Mask<F> lit = starts && as_mask(events > 0) && as_mask((events + (bounce + 1)) < context.settings.max_bounces);

@@ -25,8 +25,12 @@ template <class F> HitShare<F> share_of_hits(const F& path_density, const F& den
 
 // Keeps where the chains of paths that go on from a diffuse vertex begin.
 template <class F> void note_chain_starts(const SceneTables& scene, ManifoldHitColumns& c, const Path<F>& path, const Step<F>& step) {
-    const Mask<F> begins = step.continues && as_mask(step.next.chain == begun_chain<F>());
-    const F arrival = arrival_density<F>(scene, path, step.reuse_vertex);
+    const Mask<F> begins = step.continues && chain_begins<F>(step.next.chain);
+    const ReuseVertex<F>& v = step.reuse_vertex;
+    const F arrival = arrival_density<F>(scene, path, v);
+    // Receivers of hits have the shading normal alone.
+    const Vec<F>& wi = step.next.ray.direction;
+    const F ratio = light_ratio_behind<F>(path, v) * clamped_cosine<F>(v.ng, wi) / clamped_cosine<F>(v.ns, wi);
     for_each_lane(bits(begins), [&](int i) {
         const int slot = lane(path.slot, i);
         const auto keep = [&](Columns3& column, const Vec<F>& v) {
@@ -36,8 +40,8 @@ template <class F> void note_chain_starts(const SceneTables& scene, ManifoldHitC
         };
         keep(c.origin, step.next.ray.origin);
         keep(c.direction, step.next.ray.direction);
-        keep(c.ns, step.reuse_vertex.ns);
-        c.start_ratio[slot] = lane(path.light_ratio, i);
+        keep(c.ns, v.ns);
+        c.start_ratio[slot] = lane(ratio, i);
         c.start_arrival[slot] = lane(arrival, i);
     });
 }
@@ -84,7 +88,7 @@ template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const Scen
     };
     compress(c.slot + k, path.slot, lanes);
     compress(c.light + k, light, lanes);
-    compress(c.chain + k, (path.chain >> 8) | (chain_length<F>(path.chain) << chain_count_shift), lanes);
+    compress(c.chain + k, chain_events<F>(path.chain), lanes);
     compress(c.random + k, pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x3c6ef372u)))), lanes);
     put_all(c.target, target);
     put_all(c.emitted, emitted);

@@ -50,11 +50,6 @@ LightPoint<F> chain_light_point(const SceneTables& scene, const Int<F>& light, c
     return p;
 }
 
-// True for lights that no ray can hit (has_zero_size).
-template <class F> Mask<F> is_zero_size(const LightTables& lights, const LightPoint<F>& p) {
-    const F height = gather_field(lights.lights, &LightRecord::cone_height, p.light);
-    return has_kind(p, LightKind::point) || (p.infinite && !(height > F(0.f)));
-}
 // The size of a light as its points are sampled: metres; at infinity radians.
 template <class F> F chain_light_size(const SceneTables& scene, const LightPoint<F>& p) {
     const LightRecord* lights = scene.lights.lights;
@@ -102,7 +97,7 @@ template <class F> F arrival_density(const SceneTables& scene, const Path<F>& pa
     if (scene.light_vertices.empty()) return F(0.f);
     const Vec<F> way = v.position - path.ray.origin;
     const F density = path.pdf * abs(dot(v.ng, path.ray.direction)) / max(dot(way, way), F(1e-30f));
-    return select(as_mask(path.chain == begun_chain<F>()), density, F(0.f));
+    return select(chain_begins<F>(path.chain) && !has_flag<F>(path.chain, shares_chains), density, F(0.f));
 }
 
 // MIS weight of light vertices beside manifold sampling. `arrival`: as above; `ratio`: LightVertexColumns::ratio.
@@ -113,6 +108,12 @@ template <class F> F light_vertex_weight(const SceneTables& scene, const F& arri
 template <class F> F receiver_survival(const SceneTables& scene, const F& arrival) {
     const F odds = arrival * (scene.light_vertices.usual_ratio * scene.light_vertices.walk_share);
     return select(arrival > F(0.f), min(max(odds, F(least_receiver_survival)), F(1.f)), F(1.f));
+}
+
+// Path::light_ratio behind a Lambertian vertex, but for the density of the direction in which the path leaves it.
+template <class F> F light_ratio_behind(const Path<F>& path, const ReuseVertex<F>& v) {
+    const Vec<F> wo = -path.ray.direction;
+    return path.light_ratio * cosine_hemisphere_pdf(max(dot(v.ns, wo), F(0.f))) / clamped_cosine<F>(v.ng, wo);
 }
 
 // A receiver and its point of a light.
@@ -131,7 +132,7 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     const LightPoint<F>& p = receiver.light;
     const Vec<F> to = p.position - receiver.origin;
     const F distance = select(p.infinite, F(1.f), sqrt(dot(to, to)));
-    const Mask<F> zero_size = is_zero_size<F>(scene.lights, p);
+    const Mask<F> zero_size = is_zero_size<F>(scene.lights, p.light);
     const F of_size = chain_light_size<F>(scene, p) * converged_share;
     const F tolerance = select(zero_size, distance * converged_at_points, max(of_size, F(distance * 2e-6f)));
     const unsigned lanes = bits(queued);
@@ -161,7 +162,7 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     compress(c.first_seed + k, receiver.seeds.first, lanes);
     compress(c.seeds + k, receiver.seeds.count, lanes);
     compress(c.random + k, receiver.random, lanes);
-    if (c.measures) compress(c.light_ratio + k, receiver.light_ratio, lanes);
+    if (c.measures || !scene.emission.empty()) compress(c.light_ratio + k, receiver.light_ratio, lanes);
     c.size += count(queued);
 }
 
@@ -197,11 +198,11 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
     const Pair<F> place = Sampler<F>{path.key ^ 0x5ca1ab1eu, path.index}.pair(uint32_t(bounce));
     const LightPoint<F> p = chain_light_point<S, F>(scene, select(tried, light, Int<F>(0)), place.x(), place.y(), tried);
     const F density = seeds.probability * p.density / to_float(lights);
-    const Mask<F> queued = tried && p.valid && density > F(0.f);
+    const Mask<F> queued = tried && p.valid && density > F(0.f) && shares_chains_to<F>(scene, path, p.light);
     if (!any(queued)) return;
     append_receivers<F>(scene, c,
                         {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * (inv_pi / q), p, path.slot, seeds, density, random,
-                         path.light_ratio, arrival},
+                         light_ratio_behind<F>(path, v), arrival},
                         queued);
 }
 

@@ -52,6 +52,22 @@ template <Features S, class F> F beside_light_vertices(const SceneTables& scene,
     return select(shared, 1.f - light_vertex_weight<F>(scene, arrival, ratio), F(1.f));
 }
 
+// Density of light paths with the same vertices over that of the camera path to the receiver (path_chain.h): 1/sr.
+template <Features S, class F>
+F density_of_light_paths(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w, const Mask<F>& active) {
+    const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active);
+    return min(F(gather(c.light_ratio, w.index) * emitted * clamped_cosine<F>(load3<F>(c.ng, w.index), w.direction)), F(1e30f));
+}
+// MIS weight of manifold sampling beside light paths, and of the hits that share its light. `pdf`: of the direction.
+template <Features S, class F> [[gnu::noinline]] F beside_shared_light_paths(const SceneTables& scene, const ManifoldColumns& c,
+                                                                             const Walk<F>& w, const F& pdf, const Mask<F>& active) {
+    if (scene.emission.empty()) return F(1.f);
+    const Mask<F> shared = active && gather(c.light_ratio, w.index) > F(0.f);
+    if (!any(shared)) return F(1.f);
+    const F by_walks = max(F(pdf * walk_weight), F(1e-30f));
+    return select(shared, by_walks / (by_walks + density_of_light_paths<S, F>(scene, c, w, shared)), F(1.f));
+}
+
 // For the pilot: density with which paths of the camera and light paths together sample the direction of a solution; the probabilities of
 // the chain's events are left out, which are near 1 or weight little light. 0 for lights of zero size that light paths do not find.
 template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
@@ -61,10 +77,7 @@ template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTa
     const F by_hits = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
     const F density = select(of_zero_size<F>(c, w), F(0.f), by_hits);
     if (scene.emission.empty()) return density;
-    // Light paths leave the receiver, which is Lambertian, with the density 1 / pi (light_path_weights.h).
-    const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active);
-    const F by_light = gather(c.light_ratio, w.index) * emitted * (inv_pi * max(cosine, F(0.f)));
-    return density + min(by_light, F(1e30f));
+    return density + density_of_light_paths<S, F>(scene, c, w, active);
 }
 
 // Light that has come to the path of a slot through a chain.
@@ -201,17 +214,21 @@ void weigh_hits(const KernelContext& context, TileScratch& scratch, int bounce, 
     const F by_paths = cosine_hemisphere_pdf(cosine);
     const unsigned lanes = bits(retraced);
     const Mask<F> solved = retraced && round.ends && end.valid;
-    if (c.weighs_light_vertices) {
+    if (c.traced != ManifoldColumns::Traced::hits) {
         LightVertexColumns& v = *scratch.light_vertices;
         const Int<F> slot = gather(c.slot, w.index);
-        put<F>(v.ratio, slot, over_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved), bits(solved));
+        const F ratio = c.traced == ManifoldColumns::Traced::light_vertices
+                            ? over_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved)
+                            : F(density / max(cosine, F(1e-20f)));
+        put<F>(v.ratio, slot, ratio, bits(solved));
         // Paths that meet the light keep all of it there.
         put_int<F>(v.chain, slot, Int<F>(0), lanes & ~bits(solved));
         round.alive = round.alive && !retraced;
         return;
     }
     const HitShare<F> share = share_of_hits<F>(by_paths, density);
-    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved) *
+                     beside_shared_light_paths<S, F>(*context.scene, c, w, density, solved);
     put3<F>(c.found, w.index, load3<F>(c.found, w.index) * beside, lanes);
     if (c.measures) {
         const F without = density_without<S, F>(*context.scene, c, w, cosine, retraced);
@@ -251,7 +268,8 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     }
     const unsigned lanes = bits(carries);
     put3<F>(c.root, w.index, w.direction, lanes);
-    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, cosine, carries);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, cosine, carries) *
+                     beside_shared_light_paths<S, F>(*context.scene, c, w, pdf, carries);
     put3<F>(c.found, w.index, found * (share.kept * beside), lanes);
     put<F>(c.same, w.index, end.same, lanes);
     put<F>(c.coin, w.index, share.coin, lanes);
@@ -393,6 +411,24 @@ void run_receivers(const KernelContext& context, TileScratch& scratch, PathQueue
     run_walks<S, F>(context, scratch, rays, bounce, c.size);
     c.size = 0;
 }
+// Queues the chain of a light vertex as that of a hit.
+inline void queue_light_vertex(ManifoldHitColumns& hits, const LightVertexColumns& v, int slot) {
+    const auto copy = [](Columns3& to, int i, const Columns3& from, int k) {
+        to.x[i] = from.x[k], to.y[i] = from.y[k], to.z[i] = from.z[k];
+    };
+    const int k = hits.size++;
+    hits.slot[k] = slot;
+    hits.light[k] = v.light[slot];
+    hits.chain[k] = v.chain[slot];
+    hits.random[k] = 0;
+    copy(hits.target, k, v.target, slot);
+    copy(hits.emitted, k, v.reflected, slot);
+    copy(hits.origin, slot, v.origin, slot);
+    copy(hits.ns, slot, v.ns, slot);
+    copy(hits.direction, slot, v.wi, slot);
+    hits.start_ratio[slot] = hits.start_arrival[slot] = 0;
+}
+
 // Traces the chains of the queued hits again.
 template <Features S, class F> void retrace_hits(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce) {
     ManifoldColumns& c = *scratch.manifolds;
@@ -404,6 +440,16 @@ template <Features S, class F> void retrace_hits(const KernelContext& context, T
         w.state = Int<F>(retraces);
         begin_chain<F>(c, w, active);
     });
+}
+
+// The same for light vertices: sets LightVertexColumns::ratio; the chain becomes 0 where it has no solution.
+template <Features S, class F>
+void retrace_light_vertices(const KernelContext& context, TileScratch& scratch, PathQueue& rays, ManifoldColumns::Traced traced) {
+    ManifoldColumns& c = *scratch.manifolds;
+    if (c.hits.size == 0) return;
+    c.traced = traced;
+    retrace_hits<S, F>(context, scratch, rays, 0);
+    c.traced = ManifoldColumns::Traced::hits;
 }
 
 // Adds the light of chains: that which reaches the queued receivers, then that of the hits. Overwrites `rays`.

@@ -151,8 +151,8 @@ inline GeometryPtr waves() {
     return std::make_shared<const Geometry>(std::move(g));
 }
 
-// White walls and bottom under waves, and a sun of half a degree whose reflection the camera does not see.
-inline Scene deep_pool() {
+// White walls and bottom under waves, and a sun, by default of half a degree, whose reflection the camera does not see.
+inline Scene deep_pool(float sun_angle_radians = 0.0087f) {
     Scene scene;
     const auto wall = [&](const Vec3& center, const Vec3& size) {
         Transform t = at(center);
@@ -167,7 +167,7 @@ inline Scene deep_pool() {
     Material water = glass(0, 1.33f);
     place(scene, waves(), water);
     Light sun = caustic_light(Light::Kind::sun, 4);
-    sun.angle_radians = 0.0087f;
+    sun.angle_radians = sun_angle_radians;
     place_light(scene, sun, aimed({0, 5, 0}, {0.9f, -1, 0.2f}));
     scene.view = looking({0.3f, 3, 1.5f}, {0, -0.6f, 0}, 0.6f);
     return scene;

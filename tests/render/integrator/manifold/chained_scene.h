@@ -1,0 +1,92 @@
+// A scene that tests render with manifold sampling by kernels of their choice, tile by tile.
+#pragma once
+
+#include "render/integrator/light_path_emission.h"
+#include "render/lights/manifold_seed_table.h"
+#include "render/pilots/guiding_pilot.h"
+#include "tests/render/integrator/caustic_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace blush::test {
+
+class ChainedScene {
+public:
+    ChainedScene(const Scene& scene, const RenderSettings& settings) : settings_(settings) {
+        compiled_.update(expand_area_lights(scene), settings, full_plan(), Workers(1));
+        tables = compiled_.tables();
+        std::vector<std::unique_ptr<TileScratch>> scratch(1);
+        const auto photons =
+            trace_caustic_photons(context(tables, 3), kernels_of("scalar").back(), Workers(1), scratch, [] { return true; });
+        seeds_ = ManifoldSeedTable::make(photons->chains, tables, {}).value();
+        EXPECT_FALSE(seeds_.empty());
+        tables.manifolds = seeds_.tables(tables.casters);
+        emission = LightPathEmission(tables, compiled_.bounding_sphere(),
+                                     [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
+        EXPECT_FALSE(emission.empty());
+        tables.guides = {};
+        usual_ratio = measured_ratio();
+    }
+    KernelContext context(const SceneTables& scene, uint32_t seed) const {
+        return {&scene, &compiled_.accel(), kernel_settings(settings_, float(size), float(size)), seed};
+    }
+    Features features() const { return compiled_.features(); }
+    SceneTables with_vertices() const { return with_vertices(usual_ratio); }
+    SceneTables with_vertices(float ratio) const {
+        SceneTables t = tables;
+        t.light_vertices = {emission.tables(1), &emission, ratio, 0.1f};
+        return t;
+    }
+    // Radiance of the samples of an image.
+    std::unique_ptr<TileScratch> render(const SceneTables& scene, const Kernel& kernel, uint32_t seed) const {
+        auto tile = std::make_unique<TileScratch>();
+        Workers(1).run(
+            [&] { kernel.render(context(scene, seed), {.x = 0, .y = 0, .width = size, .height = size, .samples = samples}, *tile); });
+        return tile;
+    }
+    // Means of the quarters of images of different seeds.
+    std::vector<Measured> quarters(const SceneTables& scene, int images, uint32_t first_seed) const {
+        const Kernel& kernel = choose_kernel(compiled_.features().with(Feature::light_paths));
+        BlockMoments moments;
+        for (int k = 0; k < images; ++k) {
+            const auto tile = render(scene, kernel, first_seed + uint32_t(k));
+            std::vector<Measured> blocks(4);
+            for (int slot = 0; slot < paths; ++slot) {
+                const int pixel = slot / samples, x = pixel % size, y = pixel / size;
+                Vec3d& mean = blocks[size_t(y / (size / 2) * 2 + x / (size / 2))].mean;
+                mean = mean + Vec3d{tile->r[slot], tile->g[slot], tile->b[slot]} * (4.0 / paths);
+            }
+            moments.add(blocks);
+        }
+        return moments.measured();
+    }
+
+    static constexpr int size = 24, samples = 7, paths = size * size * samples;
+    SceneTables tables;
+    LightPathEmission emission;
+    float usual_ratio = 0;
+
+private:
+    float measured_ratio() const {
+        const auto tile = render(with_vertices(1), kernels_of("scalar").back(), 3);
+        double sum = 0;
+        int count = 0;
+        for (int slot = 0; slot < paths; ++slot) {
+            if (tile->light_vertices->chain[slot] == 0) continue;
+            sum += std::log(double(tile->light_vertices->ratio[slot]));
+            ++count;
+        }
+        EXPECT_GT(count, 0);
+        return float(std::exp(sum / std::max(count, 1)));
+    }
+
+    RenderSettings settings_;
+    RenderScene compiled_;
+    ManifoldSeedTable seeds_;
+};
+
+} // namespace blush::test
