@@ -45,6 +45,7 @@ struct ManifoldTables {
     int32_t lights = 0;
     ReceiverGrid grid;
     CausticCasterTables casters;
+    bool shares = true;         // chains with light paths (render/integrator/manifold/path_chain.h)
     GuideTables guides_without; // only for a pilot: how directions are sampled without manifold sampling
 
     bool empty() const { return !regions_of_cell; }

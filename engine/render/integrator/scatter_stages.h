@@ -239,7 +239,7 @@ template <Features S, class F> Int<F> chain_after(const SceneTables& scene, cons
     const Mask<F> begins = p.lambertian && !p.shading.behind && starts_chains<S, F>(scene, path, bounce);
     const Mask<F> chains = has_chains<F>(scene, p.surface.material);
     return next_chain<F>(path.chain, {s.bsdf.delta, step.crosses, step.internal, chains, begins},
-                         Mask<F>(bounce > 0) && path.light_ratio > F(0.f));
+                         Mask<F>(bounce > 0 && scene.manifolds.shares) && path.light_ratio > F(0.f));
 }
 
 // True if samples are weighted beside light paths (light_path_weights.h); the next three functions are for them.

@@ -29,7 +29,7 @@ struct ManifoldColumns {
     int size = 0;
     // The receiver: origin of its rays, normals, throughput times reflectance over pi.
     Columns3 origin, ns, ng, reflected;
-    Column<float> arrival; // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
+    Column<float> arrival;     // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
     Column<float> light_ratio; // light_ratio_behind() of the path; only beside light paths
     Column<int32_t> slot;
     // The light: point (at infinity: direction), normal, radiance, density with which the point is sampled (1/m^2; at infinity 1/sr),
@@ -65,7 +65,10 @@ struct ManifoldColumns {
     // the latter over the luminance found, by receiver.
     bool measures = false;
     Column<float> own_moment, base_moment, base;
-    int64_t solutions = 0, cut = 0;                           // accumulated; cut: given up after too many trials
+    int64_t solutions = 0, cut = 0; // accumulated; cut: given up after too many trials
+    // The same of receivers that share chains with light paths: base_moment without own_moment, and the rays of their walks.
+    double shared_saving = 0;
+    int64_t shared_rays = 0;
 
     void begin_measuring(int slots) {
         measures = true;

@@ -170,16 +170,8 @@ void ManifoldSeedTable::add_region(std::vector<const ChainPhoton*> photons, size
 
 ManifoldTables ManifoldSeedTable::tables(const CausticCasterTables& casters) const {
     if (empty()) return {};
-    return {regions_of_cell_.data(),
-            regions_.data(),
-            segments_.data(),
-            seeds_.data(),
-            groups_.data(),
-            group_of_light_.data(),
-            int32_t(group_of_light_.size()),
-            grid_,
-            casters,
-            {}};
+    return {regions_of_cell_.data(),         regions_.data(), segments_.data(), seeds_.data(), groups_.data(), group_of_light_.data(),
+            int32_t(group_of_light_.size()), grid_,           casters};
 }
 
 } // namespace blush

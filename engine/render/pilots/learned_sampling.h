@@ -104,6 +104,7 @@ public:
                 light_paths_.report(),
                 manifolds_.report(kept ? kept_seeds() : nullptr),
                 manifolds_.vertex_report(),
+                manifolds_.sharing_report(),
                 reuse_.report(),
                 adjoint_.report()};
     }

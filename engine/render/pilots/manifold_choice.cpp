@@ -24,7 +24,7 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
 ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
                                const CausticOptions& options)
     : useless_(why_no_manifolds(settings, scene, film)), used_(options.manifold_sampling), uses_vertices_(options.light_vertices),
-      casters_(scene.tables().casters) {}
+      shares_(options.shared_chains), casters_(scene.tables().casters) {}
 
 void ManifoldChoice::decide(ManifoldPilot pilot) {
     if (!useless_) pilot_ = std::move(pilot);
@@ -33,6 +33,7 @@ void ManifoldChoice::decide(ManifoldPilot pilot) {
 SceneTables ManifoldChoice::tables(SceneTables scene, int64_t sample) const {
     if (sample == 0 || !pays()) return scene;
     scene.manifolds = pilot_->seeds.tables(casters_);
+    scene.manifolds.shares = shares_chains();
     if (uses_light_vertices()) scene.light_vertices = pilot_->light_vertices();
     scene.guides = {};
     return scene;
@@ -75,6 +76,19 @@ FeatureUse ManifoldChoice::vertex_report() const {
                               pilot_->vertex_figures->cost());
     if (use.used) use.bytes = int64_t(pilot_->emission.memory_bytes());
     if (pilot_ && pilot_->vertex_figures) use.pilot = pilot_->vertex_figures;
+    return use;
+}
+
+FeatureUse ManifoldChoice::sharing_report() const {
+    FeatureUse use{.part = "kernel", .name = "shared chains", .used = shares_chains(), .why = {}};
+    if (!pays())
+        use.why = "manifold sampling is not used";
+    else if (!pilot_->shared_figures)
+        use.why = "there are no light paths";
+    else
+        use.why = fmt::format("pilot: variance x work {} {:.2f} of that of manifold sampling and light paths apart",
+                              use.used ? "is" : "would be", pilot_->shared_figures->cost());
+    if (pilot_) use.pilot = pilot_->shared_figures;
     return use;
 }
 

@@ -37,6 +37,10 @@ public:
         if (!pays() || !pilot_->vertex_figures) return false;
         return uses_vertices_ ? *uses_vertices_ : pilot_->vertex_figures->cost() < largest_vertex_cost;
     }
+    // True if chains are shared with light paths.
+    bool shares_chains() const { return pays() && pilot_->shares; }
+    // Overrides the pilot about it.
+    std::optional<bool> forced_sharing() const { return shares_; }
     bool gains_much() const { return pays() && (used_ || pilot_->figures->cost() < 0.5); }
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
@@ -53,6 +57,7 @@ public:
     // `kept`: samples are rendered with kept_tables().
     FeatureUse report(const ManifoldSeedTable* kept = nullptr) const;
     FeatureUse vertex_report() const;
+    FeatureUse sharing_report() const;
 
 private:
     static constexpr double largest_cost = 0.75; // a pilot errs, walks take more time than their rays, and the kernel is slower
@@ -66,7 +71,7 @@ private:
     }
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides
-    std::optional<bool> used_, uses_vertices_;
+    std::optional<bool> used_, uses_vertices_, shares_;
     CausticCasterTables casters_;
     std::optional<ManifoldPilot> pilot_;
 };

@@ -16,11 +16,13 @@ constexpr uint32_t manifold_seed = 0x5eed3a1f; // any; differs from those of ima
 constexpr int manifold_pixels = 1 << 12;       // of the image that is measured
 // LightVertexTables::walk_share: of 1, 0.3, 0.1 and 0.03 the least error times time in the pool of docs/dev/performance.md.
 constexpr float walk_share = 0.1f;
+constexpr double largest_shared_cost = 0.95; // the rays with which light paths trace their chains again are not counted
 // Of the receivers with a solution: more must not be cut off at the pilot's limit of trials.
 constexpr double largest_cut_share = 2e-3;
 
 struct MeasuredTile {
-    VariantPair pair;
+    VariantPair pair;   // with and without manifold sampling,
+    VariantPair shared; // and of that, with and without shared chains
     Vec3d mean;
     int64_t solutions = 0, cut = 0;
 };
@@ -45,22 +47,36 @@ VertexTile measure_ratios(const KernelContext& context, const Kernel& kernel, co
     return m;
 }
 
-// Of the tile without manifold sampling: with it, but for the light of its solutions, whose moments `columns` has by slot.
-VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns, int slots, const Vec3d& mean) {
+// Of the tile with more second moment in its samples.
+VariantSums with_moment(const VariantSums& with, double moment, const Vec3d& mean) {
     // The squared difference of the halves has half of a sample's variance for each channel, divided by a quarter of the samples.
     constexpr double per_sample = 2.0 / pilot_samples;
     VariantSums sums = with;
     const double relative =
         1 / (mean.x * mean.x + dark_squared) + 1 / (mean.y * mean.y + dark_squared) + 1 / (mean.z * mean.z + dark_squared);
+    const double difference = moment * 2 * per_sample / pilot_samples;
+    sums.mse = std::max(sums.mse + 3 * difference, 0.05 * sums.mse);
+    sums.relmse = std::max(sums.relmse + relative * difference, 0.05 * sums.relmse);
+    return sums;
+}
+
+// Of the tile without manifold sampling: with it, but for the light of its solutions, whose moments `columns` has by slot.
+VariantSums sums_without(const VariantSums& with, const ManifoldColumns& columns, int slots, const Vec3d& mean) {
     double difference = 0;
     for (int slot = 0; slot < slots; ++slot) {
         const double d = double(columns.base_moment[slot]) - double(columns.own_moment[slot]);
         if (std::isfinite(d)) difference += d;
     }
-    difference *= 2 * per_sample / pilot_samples;
-    sums.mse = std::max(sums.mse + 3 * difference, 0.05 * sums.mse);
-    sums.relmse = std::max(sums.relmse + relative * difference, 0.05 * sums.relmse);
-    return sums;
+    return with_moment(with, difference, mean);
+}
+
+// Decides whether chains are shared. The other figures are those with shared chains in any case: where these do not pay, the difference is
+// noise.
+void decide_sharing(std::span<const MeasuredTile> measured, std::optional<bool> shares, ManifoldPilot& pilot) {
+    std::vector<VariantPair> shared;
+    for (const MeasuredTile& m : measured) shared.push_back(m.shared);
+    pilot.shared_figures = figures_of(shared);
+    pilot.shares = shares ? *shares : pilot.shared_figures->cost() < largest_shared_cost;
 }
 
 // Renders the tiles of manifold sampling with light vertices, too. `context`: with manifold sampling. False if `wanted` returned false.
@@ -106,20 +122,24 @@ LightVertexTables ManifoldPilot::light_vertices() const {
 }
 
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,
-                                               const CausticCasterTables& casters, const Kernel& kernel, const Kernel& without,
-                                               const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                                               const std::function<bool()>& wanted) {
+                                               const CausticCasterTables& casters, std::optional<bool> shares, const Kernel& kernel,
+                                               const Kernel& without, const Workers& workers,
+                                               std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, wanted);
     if (!seeds) return std::nullopt;
-    ManifoldPilot pilot{*std::move(seeds), {}, false, {}, 0, {}};
+    ManifoldPilot pilot{.seeds = *std::move(seeds), .figures = {}, .emission = {}};
     if (pilot.seeds.empty()) return pilot;
-    SceneTables tables = *context.scene;
+    const PilotImage image = pilot_image(context.settings, manifold_pixels);
+    SceneTables tables_without = *context.scene;
+    // As many light paths for each pixel as the image has.
+    tables_without.emission.paths *= float(image.width) * float(image.height) / (context.settings.width * context.settings.height);
+    context.scene = &tables_without;
+    SceneTables tables = tables_without;
     tables.manifolds = pilot.seeds.tables(casters);
     // Light vertices are not connected through panes.
     if (!tables.panes)
         pilot.emission =
             LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
-    const PilotImage image = pilot_image(context.settings, manifold_pixels);
     context.settings.reuse = {};
     context.settings.max_bounces = pilot_max_bounces;
     context.settings.width = float(image.width);
@@ -146,6 +166,9 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
         m.pair.without = sums_without(m.pair.with, *columns, job.paths(), m.mean);
         m.pair.with.work = path_work(by_manifolds, ray_cost);
         m.pair.without.work = path_work(other, ray_cost);
+        const double saving = std::isfinite(columns->shared_saving) ? columns->shared_saving : 0;
+        m.shared = {m.pair.with, with_moment(m.pair.with, saving, m.mean)};
+        m.shared.without.work -= ray_cost * double(columns->shared_rays);
         m.solutions = columns->solutions;
         m.cut = columns->cut;
     });
@@ -158,6 +181,8 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
         cut += m.cut;
     }
     if (solutions == 0) return pilot;
+    if (!tables.emission.empty()) decide_sharing(measured, shares, pilot);
+    tables.manifolds.shares = pilot.shares;
     pilot.figures = figures_of(pairs);
     pilot.endless = double(cut) > largest_cut_share * double(solutions);
     if (!measure_light_vertices(with, image, measured, kernel, runner, pilot)) return std::nullopt;

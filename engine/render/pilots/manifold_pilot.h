@@ -19,8 +19,11 @@ struct ManifoldPilot {
     ManifoldSeedTable seeds;
     std::optional<PilotFigures> figures; // empty: no photon has arrived by specular surfaces alone, or no camera path met its region
     bool endless = false;                // some solutions need so many trials that their light would come too rarely
-    LightPathEmission emission;          // of light vertices
-    float usual_ratio = 0;               // LightVertexTables::usual_ratio; 0: no light path has found a light vertex
+    // Manifold sampling that shares chains with light paths over that without. Empty: there are none.
+    std::optional<PilotFigures> shared_figures = {};
+    bool shares = false;        // it pays
+    LightPathEmission emission; // of light vertices
+    float usual_ratio = 0;      // LightVertexTables::usual_ratio; 0: no light path has found a light vertex
     // Manifold sampling with light vertices over that without. Empty: not measured, as it would not be used.
     std::optional<PilotFigures> vertex_figures = {};
 
@@ -30,10 +33,11 @@ struct ManifoldPilot {
 
 // Renders tiles of the image at a low resolution with manifold sampling. The variance that the same light has without is known from its
 // solutions, though no path may have found it: light f of probability density p there has the second moment of f^2 / p. `kernel`: with
-// Feature::light_paths; `without`: that of the image as decided before. Arguments and the result otherwise as learn_path_guiding().
+// Feature::light_paths; `without`: that of the image as decided before; `shares` overrides ManifoldPilot::shares. Arguments and the result
+// otherwise as learn_path_guiding().
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,
-                                               const CausticCasterTables& casters, const Kernel& kernel, const Kernel& without,
-                                               const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                                               const std::function<bool()>& wanted);
+                                               const CausticCasterTables& casters, std::optional<bool> shares, const Kernel& kernel,
+                                               const Kernel& without, const Workers& workers,
+                                               std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush

@@ -10,7 +10,14 @@
 namespace blush::inline BLUSH_ISA {
 
 // hit: of a path that has found the light by chance (manifold_hits.h); zero_size: no path can.
-enum ReceiverFlag : int32_t { receiver_infinite = 1, receiver_two_sided = 2, receiver_hit = 4, receiver_zero_size = 8 };
+// shares: with light paths (path_chain.h).
+enum ReceiverFlag : int32_t {
+    receiver_infinite = 1,
+    receiver_two_sided = 2,
+    receiver_hit = 4,
+    receiver_zero_size = 8,
+    receiver_shares = 16
+};
 
 // Share of samples that take their light from the seeds of the whole scene.
 constexpr float global_share = 0.1f;
@@ -155,9 +162,10 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     compress(c.tolerance + k, tolerance, lanes);
     compress(c.slot + k, receiver.slot, lanes);
     compress(c.light + k, p.light, lanes);
+    const Mask<F> shares = Mask<F>(!scene.emission.empty()) && receiver.light_ratio > F(0.f);
     compress(c.kind + k,
-             select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) | select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)) |
-                 select(zero_size, Int<F>(receiver_zero_size), Int<F>(0)),
+             select(shares, Int<F>(receiver_shares), Int<F>(0)) | select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) |
+                 select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)) | select(zero_size, Int<F>(receiver_zero_size), Int<F>(0)),
              lanes);
     compress(c.first_seed + k, receiver.seeds.first, lanes);
     compress(c.seeds + k, receiver.seeds.count, lanes);

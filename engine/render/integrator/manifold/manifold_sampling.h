@@ -61,8 +61,7 @@ F density_of_light_paths(const SceneTables& scene, const ManifoldColumns& c, con
 // MIS weight of manifold sampling beside light paths, and of the hits that share its light. `pdf`: of the direction.
 template <Features S, class F> [[gnu::noinline]] F beside_shared_light_paths(const SceneTables& scene, const ManifoldColumns& c,
                                                                              const Walk<F>& w, const F& pdf, const Mask<F>& active) {
-    if (scene.emission.empty()) return F(1.f);
-    const Mask<F> shared = active && gather(c.light_ratio, w.index) > F(0.f);
+    const Mask<F> shared = active && as_mask((gather(c.kind, w.index) & int32_t(receiver_shares)) != 0);
     if (!any(shared)) return F(1.f);
     const F by_walks = max(F(pdf * walk_weight), F(1e-30f));
     return select(shared, by_walks / (by_walks + density_of_light_paths<S, F>(scene, c, w, shared)), F(1.f));
@@ -103,6 +102,7 @@ inline void add_chain_light(const KernelContext& context, TileScratch& scratch, 
         const float light = luminance(Vec3{c.found.x[k], c.found.y[k], c.found.z[k]}) * float(trials);
         c.base_moment[slot] += light * c.base[k];
         c.own_moment[slot] += light * light;
+        if (c.kind[k] & receiver_shares) c.shared_saving += double(light * c.base[k]) - double(light * light);
         ++c.solutions;
     }
     const double r = double(c.found.x[k]) * trials, g = double(c.found.y[k]) * trials, b = double(c.found.z[k]) * trials;
@@ -361,6 +361,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] Mask<F> advance_w
         if (!c.measures) scratch.truncated_paths += count(cut);
         add_ended_light<F>(context, scratch, w, bounce, cut);
     }
+    if (c.measures) c.shared_rays += count(active && as_mask((gather(c.kind, w.index) & int32_t(receiver_shares)) != 0));
     const Mask<F> alive = round.alive && !cut;
     store_walk<F>(c, w, bits(alive));
     return alive;

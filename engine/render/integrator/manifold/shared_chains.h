@@ -12,7 +12,7 @@ namespace blush::inline BLUSH_ISA {
 
 // Begins the chains of the paths that lights have emitted.
 template <Features S> void begin_light_chains(const SceneTables& scene, TileScratch& scratch, PathQueue& q) {
-    if (!samples_manifolds<S>(scene)) return;
+    if (!samples_manifolds<S>(scene) || !scene.manifolds.shares) return;
     if (!scratch.light_vertices) scratch.light_vertices = std::make_unique<LightVertexColumns>();
     if (!scratch.manifolds) scratch.manifolds = std::make_unique<ManifoldColumns>();
     LightVertexColumns& v = *scratch.light_vertices;
@@ -41,7 +41,7 @@ template <class F> void keep_lit_vertices(LightVertexColumns& v, const Path<F>& 
 // behind the light vertex; infinity: the camera's paths keep this light. Overwrites `rays`.
 template <Features S, class F>
 void weigh_shared_chains(const KernelContext& context, TileScratch& scratch, const PathQueue& q, PathQueue& rays) {
-    if (!samples_manifolds<S>(*context.scene)) return;
+    if (!samples_manifolds<S>(*context.scene) || !context.scene->manifolds.shares) return;
     LightVertexColumns& v = *scratch.light_vertices;
     ManifoldHitColumns& hits = scratch.manifolds->hits;
     alignas(64) int32_t shared[tile_capacity];

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -38,10 +39,11 @@ TEST(SharedChains, AgreeForAnyShareOfLightPaths) {
     for (const auto& [name, scene] : scenes) {
         SCOPED_TRACE(name);
         const auto blocks = [&](float share, bool manifolds, int spp, uint32_t seed) {
-            return image_regions(scene, settings_for(36, 36, spp), {.light_path_share = share, .manifold_sampling = manifolds}, 16, seed, 6,
-                                 6, [&](Renderer& renderer) {
+            return image_regions(scene, settings_for(36, 36, spp),
+                                 {.light_path_share = share, .manifold_sampling = manifolds, .shared_chains = true}, 16, seed, 6, 6,
+                                 [&](Renderer& renderer) {
                                      EXPECT_EQ(feature_line(renderer, "manifold sampling").used, manifolds);
-                                     EXPECT_EQ(feature_line(renderer, "light paths").used, share > 0);
+                                     EXPECT_EQ(feature_line(renderer, "shared chains").used, share > 0);
                                  });
         };
         const auto without = blocks(0, false, 96, 1);
@@ -49,6 +51,22 @@ TEST(SharedChains, AgreeForAnyShareOfLightPaths) {
         for (const float share : shares)
             EXPECT_TRUE(same_means(blocks(share, true, 24, seed += 1000), without, significance_each)) << share;
     }
+}
+
+// The pilot decides by variance and work: the pool of the demo gains, a metal ring on a floor does not.
+TEST(SharedChains, AreUsedWhereTheyPay) {
+    const auto used = [](const char* name, std::optional<bool> forced) {
+        Renderer renderer({.threads = 2, .caustics = {.shared_chains = forced}});
+        renderer.update(shipped_scene(name), settings_for(160, 90, 2));
+        renderer.render(0, 2);
+        EXPECT_TRUE(feature_line(renderer, "manifold sampling").used);
+        EXPECT_TRUE(feature_line(renderer, "light paths").used);
+        return feature_line(renderer, "shared chains").used;
+    };
+    EXPECT_TRUE(used("pool", {}));
+    EXPECT_FALSE(used("pool", false));
+    EXPECT_FALSE(used("metal-ring", {}));
+    EXPECT_TRUE(used("metal-ring", true));
 }
 
 // Splats of a tile of light paths.
@@ -90,8 +108,8 @@ TEST(SharedChains, AreLeftToLightPathsForLightsWithoutSize) {
     RenderSettings settings = settings_for(36, 36, 24);
     const Scene scene = dry_walls(0);
     const auto blocks = [&](bool manifolds, uint32_t seed) {
-        return image_regions(scene, settings, {.light_path_share = 8, .manifold_sampling = manifolds}, 16, seed, 36, 6,
-                             [&](Renderer& renderer) { EXPECT_EQ(feature_line(renderer, "manifold sampling").used, manifolds); });
+        return image_regions(scene, settings, {.light_path_share = 8, .manifold_sampling = manifolds, .shared_chains = true}, 16, seed, 36,
+                             6, [&](Renderer& renderer) { EXPECT_EQ(feature_line(renderer, "manifold sampling").used, manifolds); });
     };
     // The fourth row from below shows dry walls alone.
     const Measured shared = blocks(true, 1000)[3], alone = blocks(false, 1)[3];
