@@ -164,7 +164,7 @@ std::vector<Vec3> Renderer::resolve_error() {
 ReuseCovariance Renderer::reuse_covariance() {
     state_->clear_stale_film();
     if (state_->correlates_pixels()) return measure_block_covariance(state_->film);
-    const int group_size = state_->splats ? 1 : reuse_group_size(state_->settings, state_->learned.reuse().pilot());
+    const int group_size = state_->film_group_size();
     return group_size > 1 ? measure_reuse_covariance(state_->film, reuse_groups(group_size)) : measure_sampler_covariance(state_->film);
 }
 
@@ -216,7 +216,7 @@ Frame Renderer::resolve() {
 ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
-    const int group_size = s.splats ? 1 : blush::reuse_group_size(s.settings, s.learned.reuse().pilot());
+    const int group_size = s.film_group_size();
     ErrorEstimate error = s.correlates_pixels() ? s.film.estimate_error(s.workers, measure_block_covariance(s.film).products)
                                                 : blush::estimate_error(s.film, group_size, s.workers);
     // Both halves miss the same light, so their difference does not show that error.

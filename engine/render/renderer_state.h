@@ -169,6 +169,10 @@ struct Renderer::State {
         if (!splats) return CausticFinders::none;
         return learned.uses_manifolds() ? CausticFinders::light_paths_and_manifolds : CausticFinders::light_paths;
     }
+    // Pixels in the groups of path reuse in which samples of the film are correlated; 1: none.
+    int film_group_size() const {
+        return splats && !learned.light_paths().alone() ? 1 : blush::reuse_group_size(settings, learned.reuse().pilot());
+    }
     // For a film without samples, once the pilots have decided.
     void begin_splats() {
         if (splats == learned.light_paths().pays()) return;
@@ -194,6 +198,7 @@ struct Renderer::State {
     void refine_first_sample(const EdgePixels& pixels);
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
+    bool add_first_pass(const Wanted& wanted);
     // Runs the pilots that samples of an index below `samples` need.
     bool decide(int64_t samples, const Wanted& wanted);
     // Settings of the kernels: an integrator for comparison takes direct light or emission alone from them.

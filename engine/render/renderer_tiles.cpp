@@ -168,6 +168,17 @@ bool Renderer::State::render_first_again(const Wanted& wanted) {
     return (render_uniformly(0, 1, wanted) && trace_light_paths(0, 1, wanted)) || !(film_is_uneven = true);
 }
 
+// Light paths for the film's only sample, which stays as it is.
+bool Renderer::State::add_first_pass(const Wanted& wanted) {
+    splats = true;
+    FilmSize size = full_film();
+    size.width = film_width();
+    size.height = film_height();
+    film.begin_light_paths(size);
+    feature_report.reset();
+    return trace_light_paths(0, 1, wanted) || !(film_is_uneven = true);
+}
+
 bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     State& s = *state_;
     if (!s.first_is_trained) return true;
@@ -227,7 +238,9 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.learned.renews_first()) {
             if (begin == 0) s.first_as_others = true;
             if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
-        } else if (s.first_is_trained && !s.render_first_again(wanted))
+        } else if (s.first_is_trained) {
+            if (!s.render_first_again(wanted)) return false;
+        } else if (s.samples == 1 && !s.splats && s.learned.light_paths().alone() && !s.add_first_pass(wanted))
             return false;
     }
     for (int64_t done = 0; done < count;) {

@@ -234,6 +234,12 @@ void Film::add(const TileJob& job, const TileScratch& tile, uint32_t seed, const
     if (!findings.fireflies.empty()) health_.add_fireflies(findings.fireflies);
 }
 
+void Film::begin_light_paths(const FilmSize& size) {
+    require_memory(size);
+    light_paths_ = true;
+    splats_.reset(size_t(width_) * size_t(height_), planes_.bounces, group_count_);
+}
+
 void Film::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed) {
     const std::vector<BadSample> dropped = splats_.add_pass(pass, tiles, width_, seed, workers);
     if (!dropped.empty()) health_.add_dropped(dropped, size_t(width_), size_t(width_) * size_t(height_));

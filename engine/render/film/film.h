@@ -90,6 +90,8 @@ public:
     // negative are dropped, counted and recorded with the pass as their sample. Pass i belongs to the half of sample i. Not
     // thread-safe: neither during another pass nor while tiles are added.
     void add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed = 0);
+    // Adds planes for light paths to a film that has none. `size`: its own, with light paths. Throws as reset().
+    void begin_light_paths(const FilmSize& size);
     bool has_light_paths() const { return splats_.on(); }
     // Passes of light paths in both halves.
     const std::array<int64_t, 2>& passes() const { return splats_.passes(); }

@@ -57,9 +57,10 @@ public:
         return visibility_.pays() || portals_.pays() || guiding_.pays() || light_paths_.pays() || manifolds_.pays() || adjoint_.pays();
     }
     // True if the noise of a first sample without would be more than twice that of the others: below, discarding it would lose more than
-    // its noise takes from the mean. Always with light paths, whose share of the image is missing there.
+    // its noise takes from the mean. Always where light paths share light with the camera's samples, which have none of it there.
     bool renews_first() const {
-        return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much() || light_paths_.pays() || manifolds_.gains_much();
+        return visibility_.gains_much() || portals_.gains_much() || guiding_.gains_much() || light_paths_.combined() ||
+               manifolds_.gains_much();
     }
     // The tables for a sample of this index at full resolution. Requires !needs_pilot(sample + 1). Valid as long as this object and
     // the scene.

@@ -365,7 +365,7 @@ TEST(LightPaths, OfLightsWithoutSizeLeaveTheSamplesOfTheCameraAsTheyAre) {
     place(room, sphere(false), metal(0), at({-0.5f, -0.6f, -0.3f}, 0.3f));
     place_light(room, caustic_light(Light::Kind::point, 2), at({0.2f, 0.6f, 0.1f}));
     room.view = looking({0, 0, 0.9f}, {0.3f, -0.6f, -0.2f}, 0.6f); // without the ball
-    const auto rendered = [&](CausticStrategy caustics) {
+    const auto rendered = [&](CausticStrategy caustics, const std::vector<int64_t>& counts) {
         RenderSettings settings = settings_for(32, 32, 8);
         settings.caustics = caustics;
         settings.reuse = 4;
@@ -373,15 +373,22 @@ TEST(LightPaths, OfLightsWithoutSizeLeaveTheSamplesOfTheCameraAsTheyAre) {
         planes.strategies = true;
         Renderer renderer({.threads = 2, .planes = planes});
         renderer.update(room, settings);
-        renderer.render(0, 8);
+        int64_t first = 0;
+        for (const int64_t count : counts) {
+            EXPECT_TRUE(renderer.render(first, count));
+            first += count;
+        }
         EXPECT_EQ(feature_line(renderer, "light paths").used, caustics != CausticStrategy::off);
         EXPECT_TRUE(feature_line(renderer, "path reuse").used);
         return renderer.resolve();
     };
-    const Frame with = rendered(CausticStrategy::light_paths), without = rendered(CausticStrategy::off);
+    const Frame with = rendered(CausticStrategy::light_paths, {8}), without = rendered(CausticStrategy::off, {8});
     EXPECT_NE(with.rgba, without.rgba);
     for (const FoundBy found_by : {FoundBy::camera_hit, FoundBy::nee})
         EXPECT_EQ(with.strategies[size_t(found_by)], without.strategies[size_t(found_by)]);
+    // The first sample is kept, and gets its light paths with the second.
+    for (const std::vector<int64_t>& counts : std::vector<std::vector<int64_t>>{{1, 7}, {1, 1, 6}, {3, 5}})
+        EXPECT_TRUE(same_pixels(rendered(CausticStrategy::light_paths, counts), with));
 }
 
 TEST(LightPaths, AreLeftOutWhereALightHasItsOwnShadowCasters) {
