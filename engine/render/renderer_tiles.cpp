@@ -239,6 +239,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
             if (begin == 0) s.first_as_others = true;
             if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
         } else if (s.first_is_trained) {
+            s.splats = s.learned.light_paths().pays();
             if (!s.render_first_again(wanted)) return false;
         } else if (s.samples == 1 && !s.splats && s.learned.light_paths().alone() && !s.add_first_pass(wanted))
             return false;
