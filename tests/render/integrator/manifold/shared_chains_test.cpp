@@ -55,15 +55,16 @@ TEST(SharedChains, AgreeForAnyShareOfLightPaths) {
 
 // The pilot decides by variance and work: the pool of the demo gains, a metal ring on a floor does not.
 TEST(SharedChains, AreUsedWhereTheyPay) {
-    const auto used = [](const char* name, std::optional<bool> forced) {
+    const auto used = [](const char* name, std::optional<bool> forced, int width = 160) {
         Renderer renderer({.threads = 2, .caustics = {.shared_chains = forced}});
-        renderer.update(shipped_scene(name), settings_for(160, 90, 2));
+        renderer.update(shipped_scene(name), settings_for(width, width * 9 / 16, 2));
         renderer.render(0, 2);
         EXPECT_TRUE(feature_line(renderer, "manifold sampling").used);
         EXPECT_TRUE(feature_line(renderer, "light paths").used);
         return feature_line(renderer, "shared chains").used;
     };
     EXPECT_TRUE(used("pool", {}));
+    EXPECT_TRUE(used("pool", {}, 480)) << "depends on the number of light paths, not on that of pixels";
     EXPECT_FALSE(used("pool", false));
     EXPECT_FALSE(used("metal-ring", {}));
     EXPECT_TRUE(used("metal-ring", true));
