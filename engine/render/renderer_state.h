@@ -152,14 +152,18 @@ struct Renderer::State {
         path_counts.clear();
         truncated = 0;
     }
+    // full_film() at the film's resolution.
+    FilmSize divided_film() const {
+        FilmSize size = full_film();
+        size.width = film_width();
+        size.height = film_height();
+        return size;
+    }
     // Clearing a full-size film takes as long as rendering a coarse image, so it is delayed until the next draw or read: edits
     // often change the divider afterwards.
     void clear_stale_film() {
         if (!film_is_stale) return;
-        FilmSize size = full_film();
-        size.width = film_width();
-        size.height = film_height();
-        film.reset(size, settings.clamp);
+        film.reset(divided_film(), settings.clamp);
         film.set_gains(mixing.gains);
         sample_allocation.reset(film_width(), film_height());
         if (options.allocation && divider == 1) sample_allocation.restore(*options.allocation);

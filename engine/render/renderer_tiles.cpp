@@ -171,10 +171,7 @@ bool Renderer::State::render_first_again(const Wanted& wanted) {
 // Light paths for the film's only sample, which stays as it is.
 bool Renderer::State::add_first_pass(const Wanted& wanted) {
     splats = true;
-    FilmSize size = full_film();
-    size.width = film_width();
-    size.height = film_height();
-    film.begin_light_paths(size);
+    film.begin_light_paths(divided_film());
     feature_report.reset();
     return trace_light_paths(0, 1, wanted) || !(film_is_uneven = true);
 }
