@@ -56,10 +56,10 @@ struct Renderer::State {
     LearnedSampling learned;
     std::optional<SmallHighlights> highlights;         // of the scene and settings; empty: not searched for
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
-    bool first_is_rough = false;                       // the film holds the first sample of each pixel as rendered before the pilots
+    bool first_is_rough = false;                       // the film holds the first sample of each pixel without smooth edges
     bool first_is_trained = false;                     // and has only that sample, with a field of before an edit
     bool splats = false;                               // the film holds those of light paths
-    bool first_as_others = false;                      // the first sample is rendered as the pilots decide for the others
+    bool first_as_others = false;                      // the first sample is rendered as learned sampling decides for the others
     int divider = 1;
     FirstHitPlanesPtr first_hits; // of the scene; null: none
     const Kernel* kernel = nullptr;
@@ -199,11 +199,13 @@ struct Renderer::State {
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
-    void refine_first_sample(const EdgePixels& pixels);
+    void refine_first_sample();
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
     bool add_first_pass(const Wanted& wanted);
-    // Runs the pilots that samples of an index below `samples` need.
+    // Runs the pilots that samples of an index below `samples` need: those of learned sampling, those of smooth edges and highlights, all.
+    bool learn(int64_t samples, const Wanted& wanted);
+    bool decide_edges(const Wanted& wanted);
     bool decide(int64_t samples, const Wanted& wanted);
     // Settings of the kernels: an integrator for comparison takes direct light or emission alone from them.
     RenderSettings kernel_settings_for(const RenderSettings& asked) const;
@@ -219,13 +221,13 @@ struct Renderer::State {
     void collect_counts(const TickRate& rate);
     bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }
 
-    // True if the pilots have run before the first sample, and it would be rendered again with the second.
-    bool begins_decided(int64_t first) const {
-        return first == 0 && samples == 0 && !learned.needs_pilot(2) && !edges.needs_pilot() && learned.renews_first();
-    }
+    // True if the pilots of learned sampling have run before the first sample, and it would be rendered again with the second.
+    bool begins_decided(int64_t first) const { return first == 0 && samples == 0 && !learned.needs_pilot(2) && learned.renews_first(); }
+    // True if the film has only such a first sample, which gets smooth edges with the second.
+    bool lacks_edges() const { return first_as_others && first_is_rough && samples == 1; }
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {
-        return divider == 1 && !first_as_others && (learned.pays() || edges.pixels(1) || reuse_group_size(0) != reuse_group_size(1));
+        return divider == 1 && (edges.pixels(1) || (!first_as_others && (learned.pays() || reuse_group_size(0) != reuse_group_size(1))));
     }
     EdgeScratch& edge_scratch_of(unsigned worker) {
         if (!at_edges[worker]) at_edges[worker] = std::make_unique<EdgeScratch>();

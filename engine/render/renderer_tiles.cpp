@@ -30,7 +30,7 @@ bool Renderer::State::render_run(TileJob job, const Run& run, int max_samples, u
         if (!replays[worker]) replays[worker] = std::make_unique<TileScratch>();
         return find_fault(context, x, y, sample, *replays[worker]);
     };
-    const EdgePixels* pixels = divider == 1 ? edges.pixels(decided_as(run.first)) : nullptr;
+    const EdgePixels* pixels = divider == 1 ? edges.pixels(run.first) : nullptr;
     job.stride = run.stride;
     if (tables.adjoint.splits) max_samples = std::clamp(tile_capacity / (most_copies * job.width * job.height), 1, max_samples);
     for (int64_t done = 0; done < run.count; done += job.samples) {
@@ -129,30 +129,32 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
 }
 
 // Smooth edges for the first sample, once the pilot has found them. A film without other samples stays as it is.
-void Renderer::State::refine_first_sample(const EdgePixels& pixels) {
-    KernelContext context = context_for(scene.tables(), film.width(), film.height());
+void Renderer::State::refine_first_sample() {
+    if (!std::exchange(first_is_rough, false)) return;
+    const EdgePixels* pixels = edges.pixels(1);
+    if (!pixels) return;
+    const SceneTables rendered_with = tables_for(0);
+    KernelContext context = context_for(rendered_with, film.width(), film.height());
     context.seed = settings.seed;
     SceneTables tables;
-    restrict_to_emission(context, tables, pixels.longest_chain());
+    restrict_to_emission(context, tables, pixels->longest_chain());
     constexpr TileShape shape{32, 32, 1};
     for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
-        if (!pixels.any(job.x, job.y, job.width, job.height)) return true;
+        if (!pixels->any(job.x, job.y, job.width, job.height)) return true;
         TileScratch& tile = scratch_of(worker);
         const auto counted = std::pair(tile.camera_rays, tile.bounce_rays); // these are no paths
         kernel->render(context, job, tile);
         std::tie(tile.camera_rays, tile.bounce_rays) = counted;
-        film.add_to_first_sample(job, tile, pixels, -1);
-        refine_emission(context, *kernel, pixels, job, tile, edge_scratch_of(worker));
-        film.add_to_first_sample(job, tile, pixels, 1);
+        film.add_to_first_sample(job, tile, *pixels, -1);
+        refine_emission(context, *kernel, *pixels, job, tile, edge_scratch_of(worker));
+        film.add_to_first_sample(job, tile, *pixels, 1);
         return true;
     });
-    first_is_rough = false;
 }
 
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
     splats = learned.light_paths().pays();
-    first_is_rough = false;
     first_as_others = true;
     return render_first_again(wanted);
 }
@@ -178,6 +180,10 @@ bool Renderer::State::add_first_pass(const Wanted& wanted) {
 
 bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     State& s = *state_;
+    if (s.lacks_edges()) {
+        if (!s.decide_edges(wanted)) return false;
+        s.refine_first_sample();
+    }
     if (!s.first_is_trained) return true;
     s.learned.drop_kept();
     s.kernel_name = State::name_of(*s.kernel);
@@ -188,19 +194,27 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
 
 bool Renderer::begins_with_seeds() const { return state_->learned.kept_seeds() != nullptr; }
 
-// Each pilot measures the samples as those before it have decided.
-bool Renderer::State::decide(int64_t samples, const Wanted& wanted) {
-    if (!learned.needs_pilot(samples) && !edges.needs_pilot() && !needs_highlights()) return true;
-    SceneTables tables = scene.tables();
-    const KernelContext context = context_for(tables, settings.width, settings.height);
-    if (!learned.decide(samples, context, *kernel, workers, replays, wanted)) return false;
-    tables = learned.tables(scene.tables(), 1);
-    if ((edges.needs_pilot() || needs_highlights()) && !find_edges_and_highlights(context, wanted)) return false;
-    kernel_name = name_of(kernel_for(tables));
+bool Renderer::State::learn(int64_t samples, const Wanted& wanted) {
+    if (!learned.needs_pilot(samples)) return true;
+    const SceneTables tables = scene.tables();
+    if (!learned.decide(samples, context_for(tables, settings.width, settings.height), *kernel, workers, replays, wanted)) return false;
+    kernel_name = name_of(kernel_for(learned.tables(tables, 1)));
     info.reset();
     feature_report.reset();
     return true;
 }
+
+bool Renderer::State::decide_edges(const Wanted& wanted) {
+    if (!edges.needs_pilot() && !needs_highlights()) return true;
+    const SceneTables tables = learned.tables(scene.tables(), 1);
+    if (!find_edges_and_highlights(context_for(tables, settings.width, settings.height), wanted)) return false;
+    info.reset();
+    feature_report.reset();
+    return true;
+}
+
+// Each pilot measures the samples as those before it have decided.
+bool Renderer::State::decide(int64_t samples, const Wanted& wanted) { return learn(samples, wanted) && decide_edges(wanted); }
 
 bool Renderer::State::needs_highlights() const { return !highlights && scene.may_have_highlights(); }
 
@@ -223,18 +237,20 @@ bool Renderer::State::find_edges_and_highlights(const KernelContext& context, co
 }
 
 bool Renderer::decide(const std::function<bool()>& wanted, int64_t samples) { return state_->decide(samples, wanted); }
+bool Renderer::decide_first_sample(const std::function<bool()>& wanted) { return state_->learn(2, wanted); }
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
     s.clear_stale_film();
     if (!s.prepare_replacement(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
-    if (s.divider == 1 && (begin + count > 1 || s.options.is_part || s.begins_decided(begin))) {
-        if (!s.decide(2, wanted)) return false;
+    const bool begins_others = begin + count > 1 || s.options.is_part;
+    if (s.divider == 1 && (begins_others || s.begins_decided(begin))) {
+        if (begins_others && !s.decide(2, wanted)) return false;
         if (s.samples == 0) s.begin_splats();
         if (s.learned.renews_first()) {
             if (begin == 0) s.first_as_others = true;
-            if (s.first_is_rough && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
+            if (s.first_is_rough && !s.first_as_others && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
         } else if (s.first_is_trained) {
             s.splats = s.learned.light_paths().pays();
             if (!s.render_first_again(wanted)) return false;
@@ -251,18 +267,15 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.replacement && s.replacement->prepares_samples()) step = 1;
         if (s.divider == 1 && s.learned.needs_pilot(next + step) && !s.decide(next + step, wanted)) return false;
         if (!s.prepare_replacement_for(next, wanted)) return !(s.film_is_uneven = true);
-        if (s.first_is_rough && next > 0 && s.edges.pixels(next)) s.refine_first_sample(*s.edges.pixels(next));
+        if (next > 0) s.refine_first_sample();
         const bool planned = s.settings.adaptive && next >= SampleAllocation::pilot_samples && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||
             !s.trace_light_paths(next, step, wanted))
             return !(s.film_is_uneven = true);
         if (next == 0) {
-            s.first_is_rough = s.divider == 1 && !s.first_as_others;
-            s.first_is_trained = s.first_is_rough && s.uses_kept();
-            if (s.options.is_part && s.first_is_rough) {
-                if (s.edges.pixels(1)) s.refine_first_sample(*s.edges.pixels(1));
-                s.first_is_rough = false;
-            }
+            s.first_is_rough = s.divider == 1;
+            s.first_is_trained = s.first_is_rough && !s.first_as_others && s.uses_kept();
+            if (s.options.is_part) s.refine_first_sample();
         }
         s.samples += step;
         done += step;

@@ -316,8 +316,9 @@ void RenderSession::State::render_batch() {
         return !quit.load(std::memory_order_relaxed) &&
                (work.always_finish || film_wanted.load(std::memory_order_relaxed) || wanted_image.load(std::memory_order_relaxed) == mine);
     };
-    // Not within the time of the samples, from which that of the next image is predicted. Pilots decide for the second sample on.
-    if (work.decides && !renderer->decide(wanted, std::max<int64_t>(2, work.first_sample + work.count))) return;
+    // Not within the time of the samples, from which that of the next image is predicted.
+    const int64_t end = work.first_sample + work.count;
+    if (work.decides && !(work.clear ? renderer->decide_first_sample(wanted) : renderer->decide(wanted, end))) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
     if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {
@@ -326,8 +327,7 @@ void RenderSession::State::render_batch() {
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
-    const bool done = renderer->render(work.first_sample, work.count, wanted);
-    if (!done) return;
+    if (!renderer->render(work.first_sample, work.count, wanted)) return;
     const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
     samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
