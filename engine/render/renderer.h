@@ -84,8 +84,8 @@ public:
     // average (sample_allocation.h), whatever `first`, except for a part. Where the pilots gain much, the first sample of a film is
     // rendered again with the second (LearnedSampling::renews_first), or at once as they decided if they have run before it.
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
-    // Makes a lone first sample independent of edits: renders it again if it used a field of before an edit, and gives it smooth edges if
-    // decide_first_sample() left them out. False if stopped.
+    // Makes a lone first sample independent of edits: renders it again if it used a field of before an edit, and completes one after
+    // decide_first_sample(). False if stopped.
     bool settle_first_sample(const std::function<bool()>& wanted = {});
     void clear();
     // True if first samples and coarse images begin with the seeds of manifold sampling of before an edit.
@@ -95,7 +95,8 @@ public:
     // Otherwise render() does so before the first sample at full resolution that needs them. False if stopped.
     bool decide(const std::function<bool()>& wanted = {}, int64_t samples = std::numeric_limits<int64_t>::max());
     // Runs those of learned sampling alone, so that a first sample that would be rendered again with the second is rendered as they
-    // decide at once. It does not wait for the pilot of smooth edges, and gets these with the second sample. False if stopped.
+    // decide at once. To be shown soon, it does not wait for the pilot of smooth edges, and has at most as many light paths as camera
+    // paths; it gets smooth edges and the other light paths with the second sample. False if stopped.
     bool decide_first_sample(const std::function<bool()>& wanted = {});
 
     // First hits in the last applied scene at full size, which joint upsampling of coarse images needs (joint_upsampling.h). Kept while

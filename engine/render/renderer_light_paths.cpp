@@ -9,30 +9,55 @@
 
 namespace blush {
 
+// Of a pass.
+int64_t Renderer::State::light_path_tiles() const { return (learned.light_paths().paths() + tile_capacity - 1) / tile_capacity; }
+
 // One pass for each of these samples, if light paths pay.
 bool Renderer::State::trace_light_paths(int64_t first, int64_t count, const Wanted& wanted) {
     if (!add_replacement_passes(first, count, wanted)) return false;
+    return !splats || trace_tiles_of_passes(first, count, {0, light_path_tiles()}, wanted);
+}
+
+// Of the pass of a lone first sample that many which take about as long as its camera paths: one for each.
+bool Renderer::State::begin_first_pass(const Wanted& wanted) {
+    if (!add_replacement_passes(0, 1, wanted)) return false;
     if (!splats) return true;
+    const int64_t tiles = light_path_tiles(), pixels = int64_t(film.width()) * film.height();
+    const int64_t begun = std::clamp<int64_t>(pixels / tile_capacity, 1, tiles);
+    if (!trace_tiles_of_passes(0, 1, {0, begun}, wanted)) return false;
+    first_pass_tiles = begun < tiles ? begun : 0;
+    return true;
+}
+
+bool Renderer::State::complete_first_pass(const Wanted& wanted) {
+    if (first_pass_tiles == 0) return true;
+    if (!trace_tiles_of_passes(0, 1, {first_pass_tiles, light_path_tiles()}, wanted)) return false;
+    first_pass_tiles = 0;
+    return true;
+}
+
+// The light paths of a pass are one sequence of points, so the first of them are spread as evenly as all.
+bool Renderer::State::trace_tiles_of_passes(int64_t first, int64_t count, const TileRange& range, const Wanted& wanted) {
     const SceneTables tables = learned.light_path_tables(scene.tables());
     KernelContext context = context_for(tables, film.width(), film.height());
     context.seed = settings.seed;
     context.settings.reuse = {};
     const int64_t paths = learned.light_paths().paths();
-    const auto tiles = size_t((paths + tile_capacity - 1) / tile_capacity);
-    std::vector<std::vector<Splat>> of_tile(tiles);
+    const double traced = double(std::min(paths, range.end * tile_capacity)) / double(paths);
+    std::vector<std::vector<Splat>> of_tile(size_t(range.end - range.begin));
     const TickRate rate;
     for (int64_t pass = first; pass < first + count; ++pass) {
-        const bool traced = workers.for_each(int64_t(tiles), wanted, [&](int64_t i, unsigned worker) {
+        const bool all = workers.for_each(range.end - range.begin, wanted, [&](int64_t i, unsigned worker) {
             TileScratch& tile = scratch_of(worker);
-            const int64_t begin = i * tile_capacity;
+            const int64_t begin = (range.begin + i) * tile_capacity;
             const LightPathTile job{pass, paths, begin, int(std::min<int64_t>(tile_capacity, paths - begin))};
             trace_light_path_tile(context, kernel_for(tables), learned.light_paths().emission(), job, tile);
             std::swap(of_tile[size_t(i)], tile.light_paths->splats);
         });
         collect_counts(rate);
-        if (!traced) return false;
+        if (!all) return false;
         const std::vector<std::span<const Splat>> lists(of_tile.begin(), of_tile.end());
-        film.add_pass(pass, lists, workers, settings.seed);
+        film.add_pass(pass, lists, workers, settings.seed, traced);
     }
     return true;
 }

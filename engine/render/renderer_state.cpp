@@ -233,7 +233,7 @@ Result<FilmState> Renderer::save_film(int64_t first) const {
     if (s.film_is_stale || s.samples == 0) return Error{"", "no samples are rendered yet", ""};
     if (s.film_is_uneven) return Error{"", "rendering was stopped in the middle of a sample", ""};
     if (s.divider != 1) return Error{"", "the image is not yet at full resolution", ""};
-    if (s.first_is_trained || s.lacks_edges()) return Error{"", "the first sample is not settled", ""};
+    if (s.first_is_trained || s.first_is_incomplete()) return Error{"", "the first sample is not settled", ""};
     FilmState state = blush::save_film(s.film);
     // A saved film starts with the current emission; mix channels are saved separately.
     if (std::ranges::any_of(s.mixing.factors, [](const Vec3& f) { return f != Vec3{1, 1, 1}; })) scale_groups(state, s.mixing.factors);

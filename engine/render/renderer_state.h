@@ -59,6 +59,7 @@ struct Renderer::State {
     bool first_is_rough = false;                       // the film holds the first sample of each pixel without smooth edges
     bool first_is_trained = false;                     // and has only that sample, with a field of before an edit
     bool splats = false;                               // the film holds those of light paths
+    int64_t first_pass_tiles = 0;                      // of its first pass, if the other tiles are still to be traced
     bool first_as_others = false;                      // the first sample is rendered as learned sampling decides for the others
     int divider = 1;
     FirstHitPlanesPtr first_hits; // of the scene; null: none
@@ -145,6 +146,7 @@ struct Renderer::State {
         film_is_uneven = false;
         replacement_is_ready = replacement_is_ready && options.integrator.baked;
         first_is_rough = first_as_others = first_is_trained = false;
+        first_pass_tiles = 0;
         feature_report.reset();
         samples = loaded_first = 0;
         rays = {};
@@ -200,6 +202,7 @@ struct Renderer::State {
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
     void refine_first_sample();
+    bool complete_first_sample(const Wanted& wanted);
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
     bool add_first_pass(const Wanted& wanted);
@@ -217,14 +220,22 @@ struct Renderer::State {
     void add_replacement(const TileJob& job, TileScratch& tile, unsigned worker);
     bool needs_highlights() const;
     bool find_edges_and_highlights(const KernelContext& context, const Wanted& wanted);
+    // Of the light paths of a pass, tiles of tile_capacity.
+    struct TileRange {
+        int64_t begin, end;
+    };
+    int64_t light_path_tiles() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
+    bool begin_first_pass(const Wanted& wanted);
+    bool complete_first_pass(const Wanted& wanted);
+    bool trace_tiles_of_passes(int64_t first, int64_t count, const TileRange& range, const Wanted& wanted);
     void collect_counts(const TickRate& rate);
     bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }
 
     // True if the pilots of learned sampling have run before the first sample, and it would be rendered again with the second.
     bool begins_decided(int64_t first) const { return first == 0 && samples == 0 && !learned.needs_pilot(2) && learned.renews_first(); }
-    // True if the film has only such a first sample, which gets smooth edges with the second.
-    bool lacks_edges() const { return first_as_others && first_is_rough && samples == 1; }
+    // True if the film has only such a first sample, which gets smooth edges and the rest of its light paths with the second.
+    bool first_is_incomplete() const { return first_as_others && first_is_rough && samples == 1; }
     // True if the first sample of each pixel is rendered in another way than the next.
     bool first_differs() const {
         return divider == 1 && (edges.pixels(1) || (!first_as_others && (learned.pays() || reuse_group_size(0) != reuse_group_size(1))));

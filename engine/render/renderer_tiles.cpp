@@ -152,6 +152,13 @@ void Renderer::State::refine_first_sample() {
     });
 }
 
+// What it has left out so that it is shown sooner.
+bool Renderer::State::complete_first_sample(const Wanted& wanted) {
+    if (!complete_first_pass(wanted)) return false;
+    refine_first_sample();
+    return true;
+}
+
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
     splats = learned.light_paths().pays();
@@ -167,6 +174,7 @@ bool Renderer::State::render_first_again(const Wanted& wanted) {
     path_counts.clear();
     truncated = 0;
     first_is_trained = false;
+    first_pass_tiles = 0;
     return (render_uniformly(0, 1, wanted) && trace_light_paths(0, 1, wanted)) || !(film_is_uneven = true);
 }
 
@@ -180,10 +188,7 @@ bool Renderer::State::add_first_pass(const Wanted& wanted) {
 
 bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     State& s = *state_;
-    if (s.lacks_edges()) {
-        if (!s.decide_edges(wanted)) return false;
-        s.refine_first_sample();
-    }
+    if (s.first_is_incomplete() && !(s.decide_edges(wanted) && s.complete_first_sample(wanted))) return false;
     if (!s.first_is_trained) return true;
     s.learned.drop_kept();
     s.kernel_name = State::name_of(*s.kernel);
@@ -267,10 +272,10 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (s.replacement && s.replacement->prepares_samples()) step = 1;
         if (s.divider == 1 && s.learned.needs_pilot(next + step) && !s.decide(next + step, wanted)) return false;
         if (!s.prepare_replacement_for(next, wanted)) return !(s.film_is_uneven = true);
-        if (next > 0) s.refine_first_sample();
+        if (next > 0 && !s.complete_first_sample(wanted)) return false;
         const bool planned = s.settings.adaptive && next >= SampleAllocation::pilot_samples && s.sample_allocation.decided();
         if (!(planned ? s.render_by_plan(next, step, wanted) : s.render_uniformly(next, step, wanted)) ||
-            !s.trace_light_paths(next, step, wanted))
+            !(begins_others ? s.trace_light_paths(next, step, wanted) : s.begin_first_pass(wanted)))
             return !(s.film_is_uneven = true);
         if (next == 0) {
             s.first_is_rough = s.divider == 1;

@@ -240,8 +240,8 @@ void Film::begin_light_paths(const FilmSize& size) {
     splats_.reset(size_t(width_) * size_t(height_), planes_.bounces, group_count_);
 }
 
-void Film::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed) {
-    const std::vector<BadSample> dropped = splats_.add_pass(pass, tiles, width_, seed, workers);
+void Film::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed, double traced) {
+    const std::vector<BadSample> dropped = splats_.add_pass(pass, tiles, width_, seed, workers, traced);
     if (!dropped.empty()) health_.add_dropped(dropped, size_t(width_), size_t(width_) * size_t(height_));
 }
 

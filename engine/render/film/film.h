@@ -88,8 +88,10 @@ public:
 
     // Adds what the light paths of pass `pass` of the image bring to any pixel to a film with light paths. Splats that are not finite or
     // negative are dropped, counted and recorded with the pass as their sample. Pass i belongs to the half of sample i. Not
-    // thread-safe: neither during another pass nor while tiles are added.
-    void add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed = 0);
+    // thread-safe: neither during another pass nor while tiles are added. `traced`: the share of its light paths so far; below 1 the others
+    // must follow before another pass. Until then these stand for all.
+    void add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, const Workers& workers, uint32_t seed = 0,
+                  double traced = 1);
     // Adds planes for light paths to a film that has none. `size`: its own, with light paths. Throws as reset().
     void begin_light_paths(const FilmSize& size);
     bool has_light_paths() const { return splats_.on(); }

@@ -22,10 +22,11 @@ void SplatPlanes::reset(size_t pixels, int bounces, int groups) {
     by_bounce_.reset(pixels, bounces);
     by_group_.reset(pixels, groups);
     passes_ = {};
+    missing_ = {};
 }
 
 std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, int width, uint32_t seed,
-                                             const Workers& workers) {
+                                             const Workers& workers, double traced) {
     const int half = int(pass & 1);
     const int64_t pixels = int64_t(sums_.size() / 2), bands = int64_t(workers.threads());
     std::vector<std::vector<BadSample>> dropped(size_t(bands), std::vector<BadSample>{});
@@ -47,7 +48,8 @@ std::vector<BadSample> SplatPlanes::add_pass(int64_t pass, std::span<const std::
                 by_group_.add(size_t(splat.pixel), half, splat.group, radiance);
             }
     });
-    ++passes_[size_t(half)];
+    if (missing_[size_t(half)] == 0) ++passes_[size_t(half)];
+    missing_[size_t(half)] = 1 - traced;
     std::vector<BadSample> all;
     for (const std::vector<BadSample>& of_band : dropped) all.insert(all.end(), of_band.begin(), of_band.end());
     return all;

@@ -30,9 +30,10 @@ public:
     bool on() const { return !sums_.empty(); }
 
     // Adds the splats of pass `pass` and counts it. Not thread-safe. Returns the splats
-    // that are not finite or negative, which are not added, in an order that depends on `workers`.
+    // that are not finite or negative, which are not added, in an order that depends on `workers`. `traced`: the share of its light paths
+    // that these are, together with those of an earlier call; below 1 the others must follow before another pass.
     std::vector<BadSample> add_pass(int64_t pass, std::span<const std::span<const Splat>> tiles, int width, uint32_t seed,
-                                    const Workers& workers);
+                                    const Workers& workers, double traced = 1);
 
     // The splats of a half of a pixel, scaled as if its `count` samples were as many as the passes.
     Vec3d sum_for(size_t pixel, int half, int64_t count) const { return scaled(sum(pixel, half), half, count); }
@@ -68,9 +69,9 @@ private:
         void add(size_t pixel, int half, size_t plane, const Vec3d& radiance);
     };
     Vec3d scaled(const ExactSum3& exact, int half, int64_t count) const {
-        const int64_t passes = passes_[size_t(half)];
+        const double passes = double(passes_[size_t(half)]) - missing_[size_t(half)];
         if (passes == 0) return {0, 0, 0};
-        const double scale = double(count) / double(passes); // 1 in most pixels: exactly the sum
+        const double scale = double(count) / passes; // 1 in most pixels: exactly the sum
         const Vec3d sum = exact.value();
         return {sum.x * scale, sum.y * scale, sum.z * scale};
     }
@@ -78,6 +79,7 @@ private:
     std::vector<ExactSum3> sums_; // the halves of one pixel are adjacent
     Split by_bounce_, by_group_;
     std::array<int64_t, 2> passes_{};
+    std::array<double, 2> missing_{}; // shares of the last passes that are still to be traced
 };
 
 } // namespace blush

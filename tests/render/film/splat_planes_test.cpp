@@ -38,9 +38,9 @@ struct Fixture {
             tile->r[slot] = tile->g[slot] = tile->b[slot] = float(value(slot / count, job.sample(slot % count)));
         film.add(job, *tile, 42);
     }
-    void add_pass(int64_t pass, const Splats& splats) {
+    void add_pass(int64_t pass, const Splats& splats, double traced = 1) {
         const std::span<const Splat> list = splats;
-        film.add_pass(pass, {&list, 1}, workers);
+        film.add_pass(pass, {&list, 1}, workers, 0, traced);
     }
     Frame resolve() const {
         Frame frame;
@@ -89,6 +89,22 @@ TEST(SplatPlanes, ImageIsMeanOfSamplesPlusSplatsPerPass) {
     for (int pass = 0; pass < 3; ++pass) f.add_pass(pass, {grey(0, float(1 << pass))});
     EXPECT_EQ(f.film.passes(), (std::array<int64_t, 2>{2, 1}));
     EXPECT_FLOAT_EQ(f.resolve().rgba[0], 1 + 7 / 3.f);
+}
+
+TEST(SplatPlanes, APartOfAPassStandsForAllOfIt) {
+    Fixture f(with_light_paths(1, 1));
+    f.add(0, 1, 1, [](int, int64_t) { return 2; });
+    f.add_pass(0, {grey(0, 3)}, 0.25);
+    EXPECT_EQ(f.resolve().rgba[0], 2 + 12);
+    f.add_pass(0, {grey(0, 5)});
+    EXPECT_EQ(f.film.passes(), (std::array<int64_t, 2>{1, 0}));
+    EXPECT_EQ(f.resolve().rgba[0], 2 + 8);
+    f.add(1, 1, 1, [](int, int64_t) { return 2; });
+    f.add_pass(1, {grey(0, 4)});
+    f.add(2, 1, 1, [](int, int64_t) { return 2; });
+    f.add_pass(2, {grey(0, 6)});
+    EXPECT_EQ(f.film.passes(), (std::array<int64_t, 2>{2, 1}));
+    EXPECT_FLOAT_EQ(f.resolve().rgba[0], 2 + (8 + 4 + 6) / 3.f);
 }
 
 TEST(SplatPlanes, AHalfWithoutPassesHasNoSplats) {

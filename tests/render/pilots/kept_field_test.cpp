@@ -354,39 +354,6 @@ TEST(KeptSeeds, PilotsMayRunBeforeTheFirstSample) {
     EXPECT_TRUE(same_pixels(renderer.resolve(), untrained.resolve()));
 }
 
-// The pilot of smooth edges may take longer than a sample, and the first one is shown before it.
-TEST(KeptSeeds, TheFirstSampleDoesNotWaitForSmoothEdges) {
-    const Stage stage;
-    RenderSettings settings = with_manifolds(80, 48, 4);
-    settings.smooth_edges = true;
-    Renderer untrained(with_seeds(false));
-    edit(untrained, stage.scene, stage.brighter(), settings);
-    ASSERT_TRUE(untrained.render(0, 4));
-    const Frame fresh = untrained.resolve();
-    ASSERT_TRUE(feature_line(untrained, "smooth edges").used);
-
-    const auto begin = [&](Renderer& renderer) {
-        edit(renderer, stage.scene, stage.brighter(), settings);
-        EXPECT_TRUE(renderer.decide_first_sample() && renderer.render(0, 1));
-        EXPECT_EQ(feature_line(renderer, "smooth edges").why, "a pilot finds the pixels after the first sample");
-        EXPECT_FALSE(renderer.save_film(0)) << "a fresh start would save another first sample";
-    };
-    Renderer shown(with_seeds(true)), saved(with_seeds(true)), continued(with_seeds(false));
-    begin(shown);
-    const Frame first = shown.resolve();
-    ASSERT_TRUE(shown.render(1, 3));
-    EXPECT_TRUE(same_pixels(shown.resolve(), fresh));
-
-    begin(saved);
-    ASSERT_TRUE(saved.settle_first_sample());
-    EXPECT_FALSE(same_pixels(saved.resolve(), first)) << "it has no smooth edges";
-    const Result<FilmState> film = saved.save_film(0);
-    ASSERT_TRUE(film) << film.error().text();
-    edit(continued, stage.scene, stage.brighter(), settings);
-    ASSERT_TRUE(continued.load_film(*film) && continued.render(1, 3));
-    EXPECT_TRUE(same_pixels(continued.resolve(), fresh));
-}
-
 // Photons do not depend on the camera: after an edit of it the seeds are those that its own pilot would find.
 TEST(KeptSeeds, AfterAnEditOfTheCameraTheFirstSampleIsThatOfThePilots) {
     Stage stage;
