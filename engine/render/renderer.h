@@ -98,6 +98,10 @@ public:
     // decide at once. To be shown soon, it does not wait for the pilot of smooth edges, and has at most as many light paths as camera
     // paths; it gets smooth edges and the other light paths with the second sample. False if stopped.
     bool decide_first_sample(const std::function<bool()>& wanted = {});
+    // True if the film has such a first sample and not all of its light paths. More of them may be added at once, to be shown between: as
+    // many as camera paths, or those that are left. False if stopped; then there are as many as before.
+    bool lacks_light_paths() const;
+    bool add_light_paths(const std::function<bool()>& wanted = {});
 
     // First hits in the last applied scene at full size, which joint upsampling of coarse images needs (joint_upsampling.h). Kept while
     // edits change only light; null: none. Traced through pixel centres.

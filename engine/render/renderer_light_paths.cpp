@@ -18,23 +18,27 @@ bool Renderer::State::trace_light_paths(int64_t first, int64_t count, const Want
     return !splats || trace_tiles_of_passes(first, count, {0, light_path_tiles()}, wanted);
 }
 
-// Of the pass of a lone first sample that many which take about as long as its camera paths: one for each.
 bool Renderer::State::begin_first_pass(const Wanted& wanted) {
-    if (!add_replacement_passes(0, 1, wanted)) return false;
-    if (!splats) return true;
+    return add_replacement_passes(0, 1, wanted) && (!splats || add_to_first_pass(wanted));
+}
+
+// So many light paths of the pass of a lone first sample that they take about as long as its camera paths: one for each.
+bool Renderer::State::add_to_first_pass(const Wanted& wanted) {
     const int64_t tiles = light_path_tiles(), pixels = int64_t(film.width()) * film.height();
-    const int64_t begun = std::clamp<int64_t>(pixels / tile_capacity, 1, tiles);
-    if (!trace_tiles_of_passes(0, 1, {0, begun}, wanted)) return false;
-    first_pass_tiles = begun < tiles ? begun : 0;
+    const int64_t end = std::min(first_pass_tiles + std::max<int64_t>(1, pixels / tile_capacity), tiles);
+    if (!trace_tiles_of_passes(0, 1, {first_pass_tiles, end}, wanted)) return false;
+    first_pass_tiles = end < tiles ? end : 0;
     return true;
 }
 
 bool Renderer::State::complete_first_pass(const Wanted& wanted) {
-    if (first_pass_tiles == 0) return true;
-    if (!trace_tiles_of_passes(0, 1, {first_pass_tiles, light_path_tiles()}, wanted)) return false;
-    first_pass_tiles = 0;
+    while (first_pass_tiles > 0)
+        if (!add_to_first_pass(wanted)) return false;
     return true;
 }
+
+bool Renderer::lacks_light_paths() const { return state_->first_pass_tiles > 0; }
+bool Renderer::add_light_paths(const std::function<bool()>& wanted) { return state_->add_to_first_pass(wanted); }
 
 // The light paths of a pass are one sequence of points, so the first of them are spread as evenly as all.
 bool Renderer::State::trace_tiles_of_passes(int64_t first, int64_t count, const TileRange& range, const Wanted& wanted) {

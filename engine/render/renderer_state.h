@@ -227,6 +227,7 @@ struct Renderer::State {
     int64_t light_path_tiles() const;
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     bool begin_first_pass(const Wanted& wanted);
+    bool add_to_first_pass(const Wanted& wanted);
     bool complete_first_pass(const Wanted& wanted);
     bool trace_tiles_of_passes(int64_t first, int64_t count, const TileRange& range, const Wanted& wanted);
     void collect_counts(const TickRate& rate);

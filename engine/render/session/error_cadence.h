@@ -3,8 +3,10 @@
 #pragma once
 
 #include "core/time_budget.h"
+#include "render/frame.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace blush {
 
@@ -34,6 +36,21 @@ public:
 private:
     TimeBudget budget_{time_share};
     int64_t last_samples_ = 0;
+};
+
+// The latest error estimate of an image, which frames without their own show as well.
+struct LatestEstimate {
+    ErrorEstimate error;
+    int64_t samples = 0;
+    double at = 0; // seconds of rendering
+    std::vector<Vec3> gains;
+
+    bool is_of(const Frame& f) const { return samples == f.samples && gains == f.gains; }
+    void show_in(Frame& frame) const {
+        frame.error = error;
+        frame.error_samples = samples;
+        frame.error_at = at;
+    }
 };
 
 } // namespace blush

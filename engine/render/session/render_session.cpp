@@ -73,14 +73,7 @@ struct RenderSession::State {
     double first_image_seconds = 0, samples_per_second = 0;
     FirstHitSharing first_hits;
     ErrorCadence error_cadence;
-    // Latest error estimate of this image; frames without their own reuse it.
-    struct Estimated {
-        ErrorEstimate error;
-        int64_t samples = 0;
-        double at = 0;
-        std::vector<Vec3> gains;
-        bool is_of(const Frame& f) const { return samples == f.samples && gains == f.gains; }
-    } estimated;
+    LatestEstimate estimated; // of this image
     std::thread thread;
 
     // always set; last member, so that it is destroyed before the members that its callbacks use
@@ -152,9 +145,7 @@ void RenderSession::State::estimate_error(Frame& frame, bool wanted) {
         error_cadence.record(image, seconds_between(begin, Clock::now()));
         scheduler.record_error(estimated.error.known ? estimated.error.relmse : -1);
     }
-    frame.error = estimated.error;
-    frame.error_samples = estimated.samples;
-    frame.error_at = estimated.at;
+    estimated.show_in(frame);
     frame.error_seconds = error_cadence.spent();
 }
 
@@ -305,7 +296,7 @@ void RenderSession::State::answer(RequestedFilm kept) {
 }
 
 void RenderSession::State::render_batch() {
-    const Work work = scheduler.next();
+    const Work work = scheduler.next(renderer->lacks_light_paths());
     const uint64_t mine = current->image;
     const std::function<bool()> interrupted = [&] {
         return work.always_finish || quit.load(std::memory_order_relaxed) || film_wanted.load(std::memory_order_relaxed) ||
@@ -327,9 +318,9 @@ void RenderSession::State::render_batch() {
     }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
-    if (!renderer->render(work.first_sample, work.count, wanted)) return;
+    if (!(work.completes ? renderer->add_light_paths(wanted) : renderer->render(work.first_sample, work.count, wanted))) return;
     const double seconds = seconds_between(begin, Clock::now()) - (gate.closed_seconds() - shut_before);
-    samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
+    if (work.count > 0) samples_per_second = double(work.count) / (std::max(seconds, 1e-9) * work.divider * work.divider);
     scheduler.record_render(work, seconds);
     if (scheduler.finished() && !renderer->settle_first_sample(wanted)) return;
     if (work.publish || scheduler.finished()) {

@@ -13,6 +13,7 @@ constexpr double fastest_error_exponent = -1.5;
 // Time of a sample with kept seeds over one as the pilots decided, until it has been measured: 1.3 in the pool, 3.6 in the metal ring and
 // 6 in the wine glass, where light paths save walks. Too coarse a first image is better than one that is late.
 constexpr double seeded_over_decided = 6;
+constexpr double trust_in_whole = 0.5; // in the time of the last samples at full resolution, over those before
 
 } // namespace
 
@@ -82,11 +83,13 @@ double Scheduler::publish_interval() const {
     return 1;
 }
 
-Work Scheduler::next() const {
+Work Scheduler::next(bool lacks_light_paths) const {
     Work work;
+    work.publish = true;
+    work.completes = lacks_light_paths;
+    if (lacks_light_paths) return work;
     work.first_sample = settings_.first_sample;
     work.count = 1;
-    work.publish = true;
     if (film_divider_ == 0) {
         work.divider = first_divider();
         work.clear = true;
@@ -127,6 +130,11 @@ Work Scheduler::next() const {
 
 void Scheduler::record_render(const Work& work, double seconds) {
     seconds_ += seconds;
+    if (work.completes) {
+        // As if the sample that they belong to had taken so much longer.
+        timings_.sample_seconds += trust_in_whole * seconds;
+        return;
+    }
     const double pixels_share = 1.0 / (double(work.divider) * double(work.divider));
     const double per_sample = seconds / (double(work.count) * pixels_share);
     const auto follow = [&](double& seconds_per_sample, double trust) {
@@ -134,7 +142,7 @@ void Scheduler::record_render(const Work& work, double seconds) {
     };
     // Small films have idle lanes and cold caches, so they predict full-size timings less well.
     const bool whole = work.divider == 1;
-    follow(timings_.sample_seconds, whole ? 0.5 : 0.25);
+    follow(timings_.sample_seconds, whole ? trust_in_whole : 0.25);
     // An image has at most one whole sample of these, which must do to follow a scene that became slower.
     if (!whole || (work.first_sample == settings_.first_sample && !work.decides))
         follow(seeded_ ? timings_.seeded_first_sample_seconds : timings_.first_sample_seconds, whole ? 0.75 : 0.25);

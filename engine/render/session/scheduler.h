@@ -16,6 +16,7 @@ struct Work {
     bool always_finish = false; // the first frame of a revision is never cancelled, so that a drag always shows something
     bool publish = false;       // resolve and publish a frame afterwards
     bool decides = false;       // the pilots that these samples need run before them
+    bool completes = false;     // no sample: more light paths of the first one
 };
 
 // Similar to Cycles: a first image within a display frame, more samples of it while a first sample at full resolution would take much
@@ -70,8 +71,8 @@ public:
     bool finished() const;
     // Towards the nearest stop rule, [0, 1]; 1 only when finished.
     double progress() const;
-    // Requires that rendering is not finished.
-    Work next() const;
+    // Requires that rendering is not finished. `lacks_light_paths`: Renderer::lacks_light_paths().
+    Work next(bool lacks_light_paths = false) const;
 
     int64_t samples() const { return next_sample_ - settings_.first_sample; }
     double seconds() const { return seconds_; }

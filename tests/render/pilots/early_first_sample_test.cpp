@@ -61,7 +61,10 @@ TEST(EarlyFirstSample, IsCompletedWithTheSecond) {
         Renderer renderer(with_many_light_paths());
         begin_early(renderer, settings);
         EXPECT_EQ(feature_line(renderer, "smooth edges").why, "a pilot finds the pixels after the first sample");
+        if (adaptive) { ASSERT_TRUE(renderer.add_light_paths()); }
+        EXPECT_TRUE(renderer.lacks_light_paths());
         ASSERT_TRUE(renderer.render(1, 1));
+        EXPECT_FALSE(renderer.lacks_light_paths());
         ASSERT_TRUE(renderer.render(2, 22));
         const Frame image = renderer.resolve(), expected = whole->resolve();
         EXPECT_TRUE(same_pixels(image, expected));

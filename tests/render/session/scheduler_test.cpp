@@ -151,6 +151,31 @@ TEST(Scheduler, ImagesThatBeginWithSeedsHaveTimingsOfTheirOwn) {
     EXPECT_FALSE(first_of_full_size(run(scheduler, true, 1)).decides) << "an image of one sample has no pilots";
 }
 
+// They count as time of the sample that they belong to.
+TEST(Scheduler, LightPathsThatTheFirstSampleLacksComeNext) {
+    Scheduler whole = trained({0.2}, endless()), parts = whole;
+    const auto first = [](Scheduler& scheduler, double seconds) {
+        for (Work work = scheduler.next();; work = scheduler.next()) {
+            scheduler.record_render(work, work.divider == 1 ? seconds : 0.001);
+            if (work.divider == 1) return;
+        }
+    };
+    first(whole, 0.8);
+    first(parts, 0.2);
+    for (int k = 0; k < 3; ++k) {
+        const Work work = parts.next(true);
+        EXPECT_TRUE(work.completes && work.publish);
+        EXPECT_FALSE(work.clear || work.decides);
+        EXPECT_EQ(work.count, 0);
+        EXPECT_EQ(work.divider, 1);
+        parts.record_render(work, 0.2);
+        EXPECT_EQ(parts.samples(), 1);
+    }
+    EXPECT_FALSE(parts.next().completes);
+    EXPECT_DOUBLE_EQ(parts.seconds(), whole.seconds());
+    EXPECT_DOUBLE_EQ(parts.timings().sample_seconds, whole.timings().sample_seconds);
+}
+
 TEST(Scheduler, FirstImageHasAMinimumSize) {
     EXPECT_EQ(trained({1000}, endless(8192, 8192)).next().divider, Scheduler::coarsest_divider);
     for (const int width : {1, 16, 95, 100, 200, 400, 1280, 4000}) {
