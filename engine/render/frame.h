@@ -47,14 +47,15 @@ struct ClampReport {
 };
 
 struct Frame {
-    uint64_t revision = 0;     // of the submission that it belongs to
-    uint64_t look = 0;         // Submission::look
-    int width = 0, height = 0; // of the pixels below
-    int divider = 1;           // full resolution / this resolution
-    int64_t samples = 0;       // per pixel, on average
-    bool complete = false;     // a stop rule is reached
-    bool whole = true;         // false: only a region was rendered
-    bool transparent = false;  // shadow catcher without a background: alpha is for compositing
+    uint64_t revision = 0;       // of the submission that it belongs to
+    uint64_t look = 0;           // Submission::look
+    int width = 0, height = 0;   // of the pixels below
+    int divider = 1;             // full resolution / this resolution
+    int64_t samples = 0;         // per pixel, on average
+    double light_path_share = 1; // of the light paths of these samples, so far; below 1 only for a first sample after an edit
+    bool complete = false;       // a stop rule is reached
+    bool whole = true;           // false: only a region was rendered
+    bool transparent = false;    // shadow catcher without a background: alpha is for compositing
 
     // width * height * 4, scene-linear, top row first; alpha is 1, or coverage
     // if the environment is hidden from the camera; 0 where nothing is rendered

@@ -47,7 +47,7 @@ bool Renderer::State::trace_tiles_of_passes(int64_t first, int64_t count, const 
     context.seed = settings.seed;
     context.settings.reuse = {};
     const int64_t paths = learned.light_paths().paths();
-    const double traced = double(std::min(paths, range.end * tile_capacity)) / double(paths);
+    const double traced = range.end < light_path_tiles() ? double(range.end * tile_capacity) / double(paths) : 1;
     std::vector<std::vector<Splat>> of_tile(size_t(range.end - range.begin));
     const TickRate rate;
     for (int64_t pass = first; pass < first + count; ++pass) {

@@ -101,6 +101,12 @@ void Renderer::select_lights_by_mix() {
     State& s = *state_;
     if (!s.groups) return;
     s.scene.aim(s.mixing.gains);
+    // What its other light paths would follow is forgotten, so the first sample is rendered again with the next.
+    if (s.first_is_incomplete()) {
+        s.first_is_trained = true;
+        s.first_as_others = false;
+        s.first_pass_tiles = 0;
+    }
     s.begin_learning({}, false);
 }
 
@@ -195,6 +201,7 @@ void Renderer::resolve(Frame& frame) {
     frame.divider = s.divider;
     frame.whole = s.settings.region == ImageRegion{};
     frame.samples = s.samples;
+    frame.light_path_share = s.first_pass_tiles > 0 ? double(s.first_pass_tiles) / double(s.light_path_tiles()) : 1;
     frame.rays = s.rays;
     frame.stages = s.stages;
     frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();

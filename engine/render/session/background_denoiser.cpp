@@ -30,7 +30,8 @@ template <class Make> auto attempt(const Make& make) -> decltype(make()) {
 DenoiseCadence::Source source_of(uint64_t image, const Frame& frame) {
     // Each light group is denoised separately.
     const double planes = double(std::max<size_t>(1, frame.groups.size()));
-    return {image, frame.samples, frame.divider, frame.complete, planes * double(frame.width) * double(frame.height) * 1e-6};
+    const double megapixels = planes * double(frame.width) * double(frame.height) * 1e-6;
+    return {image, frame.samples, frame.divider, frame.complete, megapixels, frame.light_path_share};
 }
 
 } // namespace

@@ -40,7 +40,7 @@ bool DenoiseCadence::fits_a_frame() const {
 bool DenoiseCadence::answers_within_a_frame() const { return newest_ && !done_ && fits_a_frame(); }
 
 bool DenoiseCadence::is_done(DenoiseQuality quality) const {
-    return done_ && done_->divider == newest_->divider && done_->samples == newest_->samples && done_->quality >= quality;
+    return done_ && done_->divider == newest_->divider && done_->amount == newest_->amount() && done_->quality >= quality;
 }
 
 DenoiseCadence::Decision DenoiseCadence::now_with(DenoiseQuality quality) const {
@@ -63,7 +63,7 @@ DenoiseCadence::Decision DenoiseCadence::next(double now) const {
     const double rests_at = std::max(image_begun_ + idle_seconds, affordable_at(DenoiseQuality::base, idle_share));
     const DenoiseQuality quality = now >= rests_at ? DenoiseQuality::base : DenoiseQuality::fast;
     if (is_done(quality)) return wait_for(quality == DenoiseQuality::base ? std::numeric_limits<double>::infinity() : rests_at - now);
-    const bool renews = newest_->samples >= renewal_growth * done_->samples;
+    const bool renews = newest_->amount() >= double(renewal_growth) * done_->amount;
     const double due_at =
         renews ? affordable_at(quality, renewal_share) : std::max(done_->begun + min_interval, affordable_at(quality, time_share));
     if (now >= due_at) return now_with(quality);
@@ -79,7 +79,7 @@ void DenoiseCadence::record(const Source& source, DenoiseQuality quality, double
     double& speed = source.divider > 1 ? coarse_seconds_per_megapixel_ : seconds_per_megapixel_[size_t(quality)];
     const double measured = seconds / std::max(source.megapixels, 1e-6);
     speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;
-    if (same_image) done_ = Done{source.samples, source.divider, quality, begun};
+    if (same_image) done_ = Done{source.amount(), source.divider, quality, begun};
 }
 
 } // namespace blush

@@ -36,6 +36,9 @@ public:
         int divider = 1;
         bool complete = false; // rendering ended with it
         double megapixels = 0;
+        double light_path_share = 1; // Frame::light_path_share
+        // A first sample with more of its light paths counts like more samples.
+        double amount() const { return double(samples) * light_path_share; }
     };
     struct Decision {
         std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
@@ -70,7 +73,7 @@ private:
     double image_begun_ = 0;
     double spent_ = 0;
     struct Done {
-        int64_t samples = 0;
+        double amount = 0; // Source::amount()
         int divider = 1;
         DenoiseQuality quality = DenoiseQuality::fast;
         double begun = 0;

@@ -296,6 +296,10 @@ void RenderSession::State::answer(RequestedFilm kept) {
 }
 
 void RenderSession::State::render_batch() {
+    if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, Clock::now()) > idle_seconds) {
+        renderer->select_lights_by_mix();
+        selects_lights_by_mix = true;
+    }
     const Work work = scheduler.next(renderer->lacks_light_paths());
     const uint64_t mine = current->image;
     const std::function<bool()> interrupted = [&] {
@@ -312,10 +316,6 @@ void RenderSession::State::render_batch() {
     if (work.decides && !(work.clear ? renderer->decide_first_sample(wanted) : renderer->decide(wanted, end))) return;
     const auto begin = Clock::now();
     const double shut_before = gate.closed_seconds();
-    if (current->groups && !selects_lights_by_mix && seconds_between(submitted_at, begin) > idle_seconds) {
-        renderer->select_lights_by_mix();
-        selects_lights_by_mix = true;
-    }
     renderer->set_divider(work.divider);
     if (work.clear) renderer->clear();
     if (!(work.completes ? renderer->add_light_paths(wanted) : renderer->render(work.first_sample, work.count, wanted))) return;

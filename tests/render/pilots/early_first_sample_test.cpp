@@ -102,6 +102,35 @@ TEST(EarlyFirstSample, StaysWhenItsCompletionIsStopped) {
     EXPECT_TRUE(same_pixels(renderer.resolve(), fresh(settings, 4)->resolve()));
 }
 
+// Light selection that follows the mix forgets what the pilots had decided.
+TEST(EarlyFirstSample, IsRenderedAgainWhenLightSelectionFollowsTheMix) {
+    const RenderSettings settings = smooth(80, 48, 4);
+    Scene scene = ball_in_the_sun(true);
+    scene.mix.grouping = LightMix::Grouping::by_light;
+    Renderer renderer(with_many_light_paths()), whole(with_many_light_paths());
+    renderer.update(scene, settings);
+    ASSERT_TRUE(renderer.decide_first_sample() && renderer.render(0, 1));
+    ASSERT_TRUE(renderer.lacks_light_paths());
+    whole.update(scene, settings);
+    for (Renderer* r : {&renderer, &whole}) r->select_lights_by_mix();
+    EXPECT_FALSE(renderer.lacks_light_paths());
+    ASSERT_TRUE(renderer.render(1, 3) && whole.render(0, 4));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), whole.resolve()));
+}
+
+// An image so small that a pass has no light path.
+TEST(EarlyFirstSample, MayLackLightPathsForGood) {
+    const RenderSettings settings = smooth(2, 2, 4);
+    RendererOptions options = with_many_light_paths();
+    options.caustics.light_path_share = 0.125f;
+    Renderer renderer(options), whole(options);
+    for (Renderer* r : {&renderer, &whole}) r->update(ball_in_the_sun(true), settings);
+    ASSERT_TRUE(renderer.decide_first_sample() && renderer.render(0, 1));
+    EXPECT_FALSE(renderer.lacks_light_paths());
+    ASSERT_TRUE(renderer.render(1, 3) && whole.render(0, 4));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), whole.resolve()));
+}
+
 // Of light paths. Longer paths and highlights without smooth edges differ too much for a test of means.
 TEST(EarlyFirstSample, HasTheSameMean) {
     RenderSettings settings = smooth(32, 24, 1);

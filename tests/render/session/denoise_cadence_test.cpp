@@ -64,6 +64,24 @@ TEST(DenoiseCadence, TheFirstFullImageIsDenoisedAtOnceByTheSmallNetwork) {
     }
 }
 
+// A first sample after an edit gets its light paths part by part.
+TEST(DenoiseCadence, MoreLightPathsCountLikeMoreSamples) {
+    Bench bench;
+    std::vector<double> shares;
+    for (int part = 1; part <= 8; ++part) {
+        const Source source{1, 1, 1, false, 1, part / 8.0};
+        bench.offer(source);
+        const size_t before = bench.done.size();
+        bench.denoise_if_due(source);
+        if (bench.done.size() > before) shares.push_back(source.light_path_share);
+        bench.now += 1;
+    }
+    ASSERT_GE(shares.size(), 4);
+    EXPECT_EQ(shares[0], 1 / 8.0);
+    EXPECT_EQ(shares[1], 2 / 8.0);
+    EXPECT_GT(shares.back(), 0.5);
+}
+
 TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
     for (const double slowness : {0.01, 0.3, 1.0, 5.0}) {
         Bench bench;
