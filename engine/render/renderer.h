@@ -82,7 +82,8 @@ public:
     // true. False if stopped: pixels then hold different numbers of samples, which can be shown but not continued. Results do not
     // depend on threads, tiles or on how a range of samples is split into calls. Adaptive: `count` more samples per pixel on
     // average (sample_allocation.h), whatever `first`, except for a part. Where the pilots gain much, the first sample of a film is
-    // rendered again with the second (LearnedSampling::renews_first), or at once as they decided if they have run before it.
+    // rendered again with the second (LearnedSampling::renews_first), or at once as they decided if they have run before it; alone, it is
+    // then incomplete, as after decide_first_sample().
     bool render(int64_t first, int64_t count, const std::function<bool()>& wanted = {});
     // Makes a lone first sample independent of edits: renders it again if it used a field of before an edit, and completes one after
     // decide_first_sample(). False if stopped.
