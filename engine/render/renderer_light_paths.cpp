@@ -47,7 +47,6 @@ bool Renderer::State::trace_tiles_of_passes(int64_t first, int64_t count, const 
     context.seed = settings.seed;
     context.settings.reuse = {};
     const int64_t paths = learned.light_paths().paths();
-    const double traced = range.end < light_path_tiles() ? double(range.end * tile_capacity) / double(paths) : 1;
     std::vector<std::vector<Splat>> of_tile(size_t(range.end - range.begin));
     const TickRate rate;
     for (int64_t pass = first; pass < first + count; ++pass) {
@@ -61,7 +60,7 @@ bool Renderer::State::trace_tiles_of_passes(int64_t first, int64_t count, const 
         collect_counts(rate);
         if (!all) return false;
         const std::vector<std::span<const Splat>> lists(of_tile.begin(), of_tile.end());
-        film.add_pass(pass, lists, workers, settings.seed, traced);
+        film.add_pass(pass, lists, workers, settings.seed, share_of_pass(range.end));
     }
     return true;
 }

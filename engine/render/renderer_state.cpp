@@ -201,7 +201,7 @@ void Renderer::resolve(Frame& frame) {
     frame.divider = s.divider;
     frame.whole = s.settings.region == ImageRegion{};
     frame.samples = s.samples;
-    frame.light_path_share = s.first_pass_tiles > 0 ? double(s.first_pass_tiles) / double(s.light_path_tiles()) : 1;
+    frame.light_path_share = s.first_pass_tiles > 0 ? s.share_of_pass(s.first_pass_tiles) : 1;
     frame.rays = s.rays;
     frame.stages = s.stages;
     frame.path_counts = s.options.planes.roulette ? s.path_counts : std::vector<PathCounts>();

@@ -201,7 +201,7 @@ struct Renderer::State {
     bool for_each_tile(const TileShape& shape, const Wanted& wanted, const TileTask& task);
     bool render_uniformly(int64_t first, int64_t count, const Wanted& wanted);
     bool render_by_plan(int64_t first, int64_t count, const Wanted& wanted);
-    void refine_first_sample();
+    bool refine_first_sample(const Wanted& wanted);
     bool complete_first_sample(const Wanted& wanted);
     bool renew_first_sample(const Wanted& wanted);
     bool render_first_again(const Wanted& wanted);
@@ -225,6 +225,10 @@ struct Renderer::State {
         int64_t begin, end;
     };
     int64_t light_path_tiles() const;
+    // Of the light paths of a pass, that in its first tiles.
+    double share_of_pass(int64_t tiles) const {
+        return tiles < light_path_tiles() ? double(tiles * tile_capacity) / double(learned.light_paths().paths()) : 1;
+    }
     bool trace_light_paths(int64_t first, int64_t count, const Wanted& wanted);
     bool begin_first_pass(const Wanted& wanted);
     bool add_to_first_pass(const Wanted& wanted);

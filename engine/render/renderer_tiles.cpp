@@ -129,17 +129,17 @@ bool Renderer::State::render_by_plan(int64_t first, int64_t count, const Wanted&
 }
 
 // Smooth edges for the first sample, once the pilot has found them. A film without other samples stays as it is.
-void Renderer::State::refine_first_sample() {
-    if (!std::exchange(first_is_rough, false)) return;
+bool Renderer::State::refine_first_sample(const Wanted& wanted) {
+    if (!std::exchange(first_is_rough, false)) return true;
     const EdgePixels* pixels = edges.pixels(1);
-    if (!pixels) return;
+    if (!pixels) return true;
     const SceneTables rendered_with = tables_for(0);
     KernelContext context = context_for(rendered_with, film.width(), film.height());
     context.seed = settings.seed;
     SceneTables tables;
     restrict_to_emission(context, tables, pixels->longest_chain());
     constexpr TileShape shape{32, 32, 1};
-    for_each_tile(shape, {}, [&](int, const TileJob& job, unsigned worker) {
+    const bool all = for_each_tile(shape, wanted, [&](int, const TileJob& job, unsigned worker) {
         if (!pixels->any(job.x, job.y, job.width, job.height)) return true;
         TileScratch& tile = scratch_of(worker);
         const auto counted = std::pair(tile.camera_rays, tile.bounce_rays); // these are no paths
@@ -150,14 +150,11 @@ void Renderer::State::refine_first_sample() {
         film.add_to_first_sample(job, tile, *pixels, 1);
         return true;
     });
+    return all || !(film_is_uneven = true);
 }
 
-// What it has left out so that it is shown sooner.
-bool Renderer::State::complete_first_sample(const Wanted& wanted) {
-    if (!complete_first_pass(wanted)) return false;
-    refine_first_sample();
-    return true;
-}
+// Adds the light paths and the smooth edges that the first sample lacks.
+bool Renderer::State::complete_first_sample(const Wanted& wanted) { return complete_first_pass(wanted) && refine_first_sample(wanted); }
 
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
@@ -280,7 +277,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
         if (next == 0) {
             s.first_is_rough = s.divider == 1;
             s.first_is_trained = s.first_is_rough && !s.first_as_others && s.uses_kept();
-            if (s.options.is_part) s.refine_first_sample();
+            if (s.options.is_part && !s.refine_first_sample(wanted)) return false;
         }
         s.samples += step;
         done += step;

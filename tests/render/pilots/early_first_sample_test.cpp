@@ -7,24 +7,15 @@
 namespace blush::test::TEST_FILE {
 namespace {
 
-// A glass ball over a floor, in the sun; beside it a lamp in view.
+// Beside the ball a lamp in view, whose edges are smooth.
 Scene ball_in_the_sun(bool with_lamp) {
-    Scene scene;
-    place(scene, floor_quad(3), lambert(0.7f));
-    place(scene, sphere(false), glass(0, 1.5f), at({0, 1, 0}, 0.7f));
-    Light light;
-    light.kind = Light::Kind::sun;
-    light.angle_radians = 0.2f;
-    light.intensity = 3;
-    place_light(scene, light, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
-    if (with_lamp) {
-        light = {};
-        light.kind = Light::Kind::point;
-        light.radius = 0.1f;
-        light.intensity = 0.1f;
-        place_light(scene, light, at({0.8f, 0.6f, 1}));
-    }
-    scene.view = looking({0, 2, 5}, {0, 0.5f, 0}, 0.6f);
+    Scene scene = glass_ball_in_sun();
+    if (!with_lamp) return scene;
+    Light lamp;
+    lamp.kind = Light::Kind::point;
+    lamp.radius = 0.1f;
+    lamp.intensity = 0.1f;
+    place_light(scene, lamp, at({0.8f, 0.6f, 1}));
     return scene;
 }
 
@@ -100,6 +91,17 @@ TEST(EarlyFirstSample, StaysWhenItsCompletionIsStopped) {
     EXPECT_TRUE(same_pixels(renderer.resolve(), shown));
     ASSERT_TRUE(renderer.render(1, 3));
     EXPECT_TRUE(same_pixels(renderer.resolve(), fresh(settings, 4)->resolve()));
+}
+
+// Stopped while it gets smooth edges, it can be shown, but not be saved.
+TEST(EarlyFirstSample, IsNotSavedWhenItsSmoothEdgesAreStopped) {
+    const RenderSettings settings = smooth(80, 48, 4);
+    Renderer renderer(with_many_light_paths());
+    begin_early(renderer, settings);
+    while (renderer.lacks_light_paths()) ASSERT_TRUE(renderer.add_light_paths());
+    ASSERT_TRUE(renderer.decide());
+    EXPECT_FALSE(renderer.render(1, 1, [] { return false; }));
+    EXPECT_FALSE(renderer.save_film(0));
 }
 
 // Light selection that follows the mix forgets what the pilots had decided.
