@@ -41,28 +41,60 @@ public:
         t.light_vertices = {emission.tables(1), &emission, ratio, 0.1f};
         return t;
     }
-    // Radiance of the samples of an image.
-    std::unique_ptr<TileScratch> render(const SceneTables& scene, const Kernel& kernel, uint32_t seed) const {
+    // Radiance of the samples of an image; with `strategies`, of each that finds it.
+    std::unique_ptr<TileScratch> render(const SceneTables& scene, const Kernel& kernel, uint32_t seed, bool strategies = false) const {
         auto tile = std::make_unique<TileScratch>();
+        if (strategies) tile->strategies = std::make_unique<StrategyColumns>(false);
         Workers(1).run(
             [&] { kernel.render(context(scene, seed), {.x = 0, .y = 0, .width = size, .height = size, .samples = samples}, *tile); });
         return tile;
     }
-    // Means of the quarters of images of different seeds.
-    std::vector<Measured> quarters(const SceneTables& scene, int images, uint32_t first_seed) const {
-        const Kernel& kernel = choose_kernel(compiled_.features().with(Feature::light_paths));
+    // Means of the quarters of images of different seeds. image(seed): its pixels.
+    using Pixels = std::vector<Vec3d>;
+    template <class Image> static std::vector<Measured> quarters_of(int images, uint32_t first_seed, const Image& image) {
         BlockMoments moments;
         for (int k = 0; k < images; ++k) {
-            const auto tile = render(scene, kernel, first_seed + uint32_t(k));
+            const Pixels pixels = image(first_seed + uint32_t(k));
             std::vector<Measured> blocks(4);
-            for (int slot = 0; slot < paths; ++slot) {
-                const int pixel = slot / samples, x = pixel % size, y = pixel / size;
+            for (int pixel = 0; pixel < size * size; ++pixel) {
+                const int x = pixel % size, y = pixel / size;
                 Vec3d& mean = blocks[size_t(y / (size / 2) * 2 + x / (size / 2))].mean;
-                mean = mean + Vec3d{tile->r[slot], tile->g[slot], tile->b[slot]} * (4.0 / paths);
+                mean = mean + pixels[size_t(pixel)] * (4.0 / (size * size));
             }
             moments.add(blocks);
         }
         return moments.measured();
+    }
+    static Pixels pixels_of(const double* r, const double* g, const double* b) {
+        Pixels pixels(size_t(size) * size);
+        for (size_t slot = 0; slot < size_t(paths); ++slot) {
+            Vec3d& pixel = pixels[slot / size_t(samples)];
+            pixel = pixel + Vec3d{r[slot], g[slot], b[slot]} * (1.0 / samples);
+        }
+        return pixels;
+    }
+    const Kernel& fastest_kernel() const { return choose_kernel(features().with(Feature::light_paths)); }
+    std::vector<Measured> quarters(const SceneTables& scene, int images, uint32_t first_seed) const {
+        return quarters_of(images, first_seed, [&](uint32_t seed) {
+            const auto tile = render(scene, fastest_kernel(), seed);
+            return pixels_of(tile->r.data, tile->g.data, tile->b.data);
+        });
+    }
+
+    // Splats of so many light paths for each sample. They, and the weights, are for `scene.emission.paths` of them.
+    Pixels splats(const SceneTables& scene, int light_paths, uint32_t seed) const {
+        const Kernel kernel = fastest_kernel();
+        const KernelContext of_image = context(scene, seed);
+        const auto tile = std::make_unique<TileScratch>();
+        Pixels pixels(size_t(size) * size);
+        Workers(1).run([&] {
+            for (int pass = 0; pass < samples; ++pass) {
+                trace_light_path_tile(of_image, kernel, emission, {pass, light_paths, 0, light_paths}, *tile);
+                for (const Splat& s : tile->light_paths->splats)
+                    pixels[size_t(s.pixel)] = pixels[size_t(s.pixel)] + to_double(s.radiance) * (1.0 / samples);
+            }
+        });
+        return pixels;
     }
 
     static constexpr int size = 24, samples = 7, paths = size * size * samples;

@@ -173,4 +173,11 @@ inline Scene deep_pool(float sun_angle_radians = 0.0087f) {
     return scene;
 }
 
+// The walls of a pool above its water, under a sun so wide that paths find it by chance.
+inline Scene dry_walls(float sun_angle_radians = 0.6f) {
+    Scene scene = deep_pool(sun_angle_radians);
+    scene.view = looking({0.9f, 0.9f, 0.9f}, {-0.9f, 0.1f, -0.9f}, 0.6f);
+    return scene;
+}
+
 } // namespace blush::test

@@ -15,12 +15,6 @@ namespace {
 
 using namespace statistics;
 
-// The walls of a pool above its water, under a sun so wide that paths find it by chance.
-Scene dry_walls(float sun_angle_radians = 0.6f) {
-    Scene scene = deep_pool(sun_angle_radians);
-    scene.view = looking({0.9f, 0.9f, 0.9f}, {-0.9f, 0.1f, -0.9f}, 0.6f);
-    return scene;
-}
 std::vector<std::pair<const char*, Scene>> shared_scenes() {
     auto walled = walled_scenes();
     std::vector<std::pair<const char*, Scene>> scenes;
