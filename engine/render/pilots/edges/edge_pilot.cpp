@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace blush {
@@ -35,7 +36,8 @@ struct Samples {
     double at(int x, int y, int s = 0) const { return luminance[(size_t(y) * size_t(width) + size_t(x)) * size_t(per_pixel) + size_t(s)]; }
 };
 
-constexpr int measured_samples = 128;
+constexpr int first_measured_samples = 32, measured_samples = 128;
+constexpr size_t nearest_measured = 512; // that take all of these in any case
 constexpr double significant_sigmas = 2; // of what was sighted, beyond what the samples met
 constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured = 64;
 
@@ -65,7 +67,9 @@ private:
     bool is_edge(int x, int y, TileScratch& scratch) const;
     bool find_edges(EdgePixels& pixels);
     void choose_measured(const Sightings& sightings);
-    void measure(MeasuredPixel& pixel, TileScratch& scratch) const;
+    bool measure_all();
+    // Adds samples.
+    void measure(MeasuredPixel& pixel, int samples, TileScratch& scratch) const;
     void estimate(MeasuredPixel& pixel) const;
     std::vector<SmallHighlights::Band> unmeasured(const Sightings& sightings) const;
     double unexplained_variance(const Sightings& sightings) const;
@@ -74,8 +78,10 @@ private:
     bool find_highlights(const Sightings& sightings, EdgesFound& found);
     void add_unmeasured(const Sightings& sightings, SmallHighlights& highlights) const;
     const MeasuredPixel* measured_at(int x, int y) const;
+    // Calls take(MeasuredPixel) for those among a pixel and its neighbours.
+    template <class Take> void for_each_near(const MeasuredPixel& pixel, const Take& take) const;
     // Of the image's rate of highlights.
-    double share_of_sample() const { return 1 / (double(place_.size()) * measured_samples); }
+    double share_of_sample(const MeasuredPixel& pixel) const { return 1 / (double(place_.size()) * pixel.measured); }
 
     KernelContext context_, chains_, emission_;
     SceneTables tables_; // of the emission
@@ -186,6 +192,12 @@ const MeasuredPixel* Pilot::measured_at(int x, int y) const {
     return place < 0 ? nullptr : &measured_[size_t(place)];
 }
 
+template <class Take> void Pilot::for_each_near(const MeasuredPixel& pixel, const Take& take) const {
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+            if (const MeasuredPixel* near = measured_at(x, y)) take(*near);
+}
+
 // The pixels around each sighting, as far as the next path that looked for them: nearest lamps first, while there are not too many pixels.
 // Light that is seen in more pixels than these has no small highlights: an environment in glass.
 void Pilot::choose_measured(const Sightings& sightings) {
@@ -200,20 +212,44 @@ void Pilot::choose_measured(const Sightings& sightings) {
         for (int y = std::max(0, s.y - reach); y <= std::min(seen_.height - 1, s.y + reach); ++y)
             for (int x = std::max(0, s.x - reach); x <= std::min(seen_.width - 1, s.x + reach); ++x) {
                 int32_t& place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
-                if (place >= 0 || measured_.size() == most) continue;
-                place = int32_t(measured_.size());
-                measured_.emplace_back().x = x;
-                measured_.back().y = y;
+                if (place < 0) {
+                    if (measured_.size() == most) continue;
+                    place = int32_t(measured_.size());
+                    measured_.push_back({.x = x, .y = y});
+                }
+                MeasuredPixel& pixel = measured_[size_t(place)];
+                pixel.sighted = std::min(pixel.sighted, s.luminance);
             }
 }
 
-void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
+// Most pixels near a sighting do not have the highlight: all take a few samples, and the nearest ones and those at which a highlight was
+// met take the others.
+bool Pilot::measure_all() {
+    const auto measure_some = [&](const std::vector<size_t>& places, int samples) {
+        return workers_.for_each(int64_t(places.size()), wanted_,
+                                 [&](int64_t i, unsigned worker) { measure(measured_[places[size_t(i)]], samples, *scratch_[worker]); });
+    };
+    std::vector<size_t> places(measured_.size());
+    std::iota(places.begin(), places.end(), size_t(0));
+    if (!measure_some(places, first_measured_samples)) return false;
+    std::vector<uint8_t> is_near(measured_.size());
+    std::fill_n(is_near.begin(), std::min(is_near.size(), nearest_measured), true);
+    for (const MeasuredPixel& pixel : measured_)
+        if (pixel.has_highlight())
+            for_each_near(pixel, [&](const MeasuredPixel& near) { is_near[size_t(&near - measured_.data())] = true; });
+    std::erase_if(places, [&](size_t place) { return !is_near[place]; });
+    return measure_some(places, measured_samples - first_measured_samples);
+}
+
+void Pilot::measure(MeasuredPixel& pixel, int samples, TileScratch& scratch) const {
     const int64_t before = scratch.camera_rays + scratch.bounce_rays;
     scratch.bounces = std::make_unique<BounceColumns>(1); // to tell emission that is seen directly
-    kernels_.emission.trace_chains(chains_, {.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .samples = measured_samples}, scratch);
-    pixel.rays = double(scratch.camera_rays + scratch.bounce_rays - before) / measured_samples;
+    const TileJob job{.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .first_sample = pixel.measured, .samples = samples};
+    kernels_.emission.trace_chains(chains_, job, scratch);
+    pixel.rays += double(scratch.camera_rays + scratch.bounce_rays - before);
+    pixel.measured += samples;
     const RadianceColumns& seen = scratch.bounces->after[0];
-    for (int k = 0; k < measured_samples; ++k) {
+    for (int k = 0; k < samples; ++k) {
         const double l = luminance_in(scratch, k);
         pixel.sum += l;
         pixel.squares += l * l;
@@ -233,14 +269,12 @@ void Pilot::measure(MeasuredPixel& pixel, TileScratch& scratch) const {
 // Once all are measured.
 void Pilot::estimate(MeasuredPixel& pixel) const {
     double low = pixel.low, high = pixel.high, path_high = pixel.path_high;
-    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
-        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
-            if (const MeasuredPixel* near = measured_at(x, y)) {
-                low = std::min(low, near->low);
-                high = std::max(high, near->high);
-                path_high = std::max(path_high, near->path_high);
-            }
-    const double other = other_light(pixel.x, pixel.y), n = measured_samples + 2, mean = (pixel.sum + low + high) / n;
+    for_each_near(pixel, [&](const MeasuredPixel& near) {
+        low = std::min(low, near.low);
+        high = std::max(high, near.high);
+        path_high = std::max(path_high, near.path_high);
+    });
+    const double other = other_light(pixel.x, pixel.y), n = pixel.measured + 2, mean = (pixel.sum + low + high) / n;
     pixel.mean = mean + other;
     if (path_high == 0) return;
     pixel.variance = std::max(0.0, (pixel.squares + low * low + high * high) / n - mean * mean);
@@ -256,7 +290,7 @@ std::vector<SmallHighlights::Band> Pilot::unmeasured(const Sightings& sightings)
     std::array<double, octaves> squares{}, met{};
     for (const Sighting& s : sightings.all) squares[SmallHighlights::octave_of(s.luminance)] += s.band.rate * s.band.rate;
     for (const MeasuredPixel& pixel : measured_)
-        for (const MetLight& m : pixel.met) met[SmallHighlights::octave_of(m.path_luminance)] += share_of_sample() * m.path_rate;
+        for (const MetLight& m : pixel.met) met[SmallHighlights::octave_of(m.path_luminance)] += share_of_sample(pixel) * m.path_rate;
     std::vector<SmallHighlights::Band> result(octaves);
     for (size_t k = 0; k < octaves; ++k) {
         const SmallHighlights::Band& band = sighted.bands[k];
@@ -272,7 +306,7 @@ double Pilot::unexplained_variance(const Sightings& sightings) const {
     double variance = 0;
     for (const Sighting& s : sightings.all) variance += s.band.rate * s.luminance * s.luminance;
     for (const MeasuredPixel& pixel : measured_)
-        for (const MetLight& m : pixel.met) variance -= share_of_sample() * m.luminance * m.path_luminance;
+        for (const MetLight& m : pixel.met) variance -= share_of_sample(pixel) * m.luminance * m.path_luminance;
     return std::max(0.0, variance);
 }
 
@@ -336,15 +370,13 @@ void Pilot::measure_cells(const Sightings& sightings, double unexplained) {
 
 bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
     choose_measured(sightings);
-    if (!workers_.for_each(int64_t(measured_.size()), wanted_,
-                           [&](int64_t i, unsigned worker) { measure(measured_[size_t(i)], *scratch_[worker]); }))
-        return false;
+    if (!measure_all()) return false;
     for (MeasuredPixel& pixel : measured_) estimate(pixel);
     const double unexplained = unexplained_variance(sightings);
     measure_cells(sightings, unexplained);
     choose_highlight_samples(measured_, cells_, double(place_.size()), noise_with_highlights(unexplained));
-    const double share = share_of_sample();
     for (const MeasuredPixel& pixel : measured_) {
+        const double share = share_of_sample(pixel);
         if (pixel.samples > 0) found.pixels.add(pixel.x, pixel.y, pixel.samples);
         for (const MetLight& m : pixel.met)
             if (pixel.samples > 0)

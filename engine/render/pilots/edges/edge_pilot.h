@@ -43,7 +43,8 @@ struct EdgeKernels {
 //
 // Highlights of lamps in mirrors and glass are edges, too, but hardly any sample of one per pixel meets them. Samples of the emission
 // follow all chains of delta lobes (delta_chains.h), which also tell the variance of paths, that select one. Pixels near those that
-// highlight_pilot.h has sighted, at most one pixel in 64 and the nearest to a lamp first, are measured by 128 samples of the emission each.
+// highlight_pilot.h has sighted, at most one pixel in 64 and the nearest to a lamp first, are measured: by 32 samples of the emission each,
+// and by 128 the 512 nearest and those at which one of the 32 met light like that of a sighting.
 // A pixel beside others that met a highlight counts as if one more sample had. In the other pixels of a cell of sightings, these estimate
 // both variances. highlight_samples.h chooses how many samples of the emission each takes. The coarse image meets hardly any highlight, so
 // the noise of the image is here the sum of that of its light other than emission, that of the measured pixels, and that of highlights

@@ -29,7 +29,7 @@ void add_steps(MeasuredPixel& pixel, double share, const ImageNoise& before, std
             const double gain = (pixel.variance_with(samples) - pixel.variance_with(more)) * share;
             if (more <= samples || !(gain > 0)) continue;
             const int added = samples == 0 ? more + 1 : more - samples; // one for what the path has found
-            const Step step{&pixel, nullptr, more, gain, gain / pixel.scale(), added * pixel.rays * share};
+            const Step step{&pixel, nullptr, more, gain, gain / pixel.scale(), added * pixel.rays_per_sample() * share};
             if (!best.pixel || step.worth(before) > best.worth(before)) best = step;
         }
         if (!best.pixel) break;

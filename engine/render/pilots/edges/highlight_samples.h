@@ -5,6 +5,7 @@
 #include "render/film/edge_pixels.h"
 #include "render/pilots/variant_comparison.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -37,6 +38,8 @@ struct MetLight {
 // Samples of a pixel near a sighting.
 struct MeasuredPixel {
     int x = 0, y = 0;
+    double sighted = std::numeric_limits<double>::infinity(); // least luminance of the sightings, of a path
+    int measured = 0;                                         // number of samples
     double sum = 0, squares = 0, low = std::numeric_limits<double>::infinity(), high = 0, rays = 0;
     double path_squares = 0, path_high = 0; // of paths: the sum of second moments, and the largest
     std::vector<MetLight> met;
@@ -44,6 +47,12 @@ struct MeasuredPixel {
     double path_variance = 0, variance = 0, mean = 0, cancelled = 0;
     int samples = 0; // of the emission for each sample; 0: its path's own
 
+    // True if samples met light like that of a sighting, which may be an octave brighter.
+    bool has_highlight() const {
+        return std::ranges::any_of(met, [&](const MetLight& m) { return 2 * m.path_luminance > sighted; });
+    }
+    // Rays of a sample.
+    double rays_per_sample() const { return rays / measured; }
     // With so many samples.
     double variance_with(int each) const { return each == 0 ? path_variance : variance / each + cancelled; }
     // Of relative squares.
