@@ -230,8 +230,8 @@ bool Renderer::State::find_edges_and_highlights(const KernelContext& context, co
         sightings = Sightings{};
     }
     if (!edges.needs_pilot()) return true;
-    auto found =
-        find_edge_pixels(context, {kernel_for(*context.scene), *kernel}, edges.longest_chain(), *sightings, workers, replays, wanted);
+    auto found = find_edge_pixels(context, {kernel_for(*context.scene), *kernel}, learned.light_paths().work_per_sample(),
+                                  edges.longest_chain(), *sightings, workers, replays, wanted);
     if (!found) return false;
     edges.decide(std::move(found->pixels));
     if (needs_highlights()) highlights = found->highlights;

@@ -44,6 +44,13 @@ float LightPathChoice::share() const {
     return std::max(of_sized, pilot_->zero_size_share);
 }
 
+double LightPathChoice::work_per_sample() const {
+    if (!pays()) return 0;
+    // Of both kinds at most.
+    const double of_path = combined() ? std::max(pilot_->work, pilot_->zero_size_work) : pilot_->zero_size_work;
+    return double(share()) * of_path;
+}
+
 SceneTables LightPathChoice::tables(SceneTables scene, int64_t sample) const {
     return sample > 0 && combined() ? light_path_tables(scene) : scene;
 }

@@ -43,6 +43,8 @@ public:
     bool pays() const { return combined() || alone(); }
     // Light paths for one sample of every pixel of the whole image; 0: none.
     int64_t paths() const { return int64_t(pixels_ * double(share())); }
+    // Their rays (path_work) for one sample of a pixel.
+    double work_per_sample() const;
     const LightPathEmission& emission() const { return combined() ? pilot_->emission : pilot_->zero_size; }
     // The tables for a sample of the camera's paths of this index at full resolution. Requires a decision except for index 0. Valid as long
     // as both.

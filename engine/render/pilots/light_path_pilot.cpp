@@ -187,6 +187,8 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
         add_camera_tile(tiles[i], variants[i], m);
         m.camera_work += path_work(variants[i], 1) / pilot_samples;
     }
+    pilot.work = m.light_work / double(paths);
+    pilot.zero_size_work = m.alone_work / double(paths);
     size_t chosen = 0;
     if (std::ranges::any_of(m.moment[0], [](double moment) { return moment > 0; })) {
         pilot.figures = figures_of(m, 1);

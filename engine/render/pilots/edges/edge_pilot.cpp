@@ -43,10 +43,11 @@ constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured =
 
 class Pilot {
 public:
-    Pilot(const KernelContext& context, const EdgeKernels& kernels, int longest_chain, const Workers& workers,
+    Pilot(const KernelContext& context, const EdgeKernels& kernels, double light_path_work, int longest_chain, const Workers& workers,
           std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted)
         : context_(context), kernels_(kernels), workers_(workers), scratch_(scratch), wanted_(wanted) {
         context_.seed = edge_pilot_seed;
+        noise_.light_path_work = light_path_work;
         chains_ = context_;
         restrict_to_emission(chains_, tables_, longest_chain);
         emission_ = chains_;
@@ -125,7 +126,7 @@ bool Pilot::render_coarse() {
         noise_.work += double(s->camera_rays) + double(s->bounce_rays) + shadow_ray_cost * double(s->shadow_rays);
     if (!render(chains_, kernels_.emission, coarse_divider, coarse_samples, emissions_)) return false;
     const double pixels = double(paths_.width) * double(paths_.height);
-    noise_.work /= coarse_samples * pixels;
+    noise_.work = noise_.work / (coarse_samples * pixels) + noise_.light_path_work;
     for (int y = 0; y < paths_.height; ++y)
         for (int x = 0; x < paths_.width; ++x) {
             const double a = paths_.at(x, y, 0), b = paths_.at(x, y, 1), scale = (a + b) * (a + b) / 4 + dark_squared;
@@ -134,6 +135,7 @@ bool Pilot::render_coarse() {
             other_noise_.add(other * other / 2 / pixels, scale);
         }
     other_noise_.work = noise_.work;
+    other_noise_.light_path_work = noise_.light_path_work;
     return true;
 }
 
@@ -314,7 +316,8 @@ double Pilot::unexplained_variance(const Sightings& sightings) const {
 ImageNoise Pilot::noise_with_highlights(double unexplained) const {
     double highlights = unexplained;
     for (const MeasuredPixel& pixel : measured_) highlights += pixel.path_variance / double(place_.size());
-    return {other_noise_.mse + highlights, other_noise_.relmse + highlights * relative_to_variance(measured_), other_noise_.work};
+    return {other_noise_.mse + highlights, other_noise_.relmse + highlights * relative_to_variance(measured_), other_noise_.work,
+            other_noise_.light_path_work};
 }
 
 // Variances of the cells of the sightings, each as a mean over the cells around it: few samples look for the lamps of one. Their sum is at
@@ -424,10 +427,10 @@ std::optional<EdgesFound> Pilot::find(const Sightings& sightings) {
 
 } // namespace
 
-std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, int longest_chain,
-                                           const Sightings& sightings, const Workers& workers,
+std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, double light_path_work,
+                                           int longest_chain, const Sightings& sightings, const Workers& workers,
                                            std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
-    return Pilot(context, kernels, longest_chain, workers, scratch, wanted).find(sightings);
+    return Pilot(context, kernels, light_path_work, longest_chain, workers, scratch, wanted).find(sightings);
 }
 
 } // namespace blush

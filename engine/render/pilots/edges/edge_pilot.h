@@ -57,10 +57,11 @@ struct EdgeKernels {
 // errors.
 //
 // `context` as for the film at full resolution, except its seed and groups. `paths`: the kernel of samples; `emission`: one with all
-// features that they need but light paths. `longest_chain`: 0 where smooth surfaces have no smooth edges; then `sightings` must be empty.
-// `scratch`: one per worker, allocated if needed. Empty if `wanted` returned false.
-std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, int longest_chain,
-                                           const Sightings& sightings, const Workers& workers,
+// features that they need but light paths. `light_path_work`: rays (path_work) of light paths for one sample of a pixel. `longest_chain`: 0
+// where smooth surfaces have no smooth edges; then `sightings` must be empty. `scratch`: one per worker, allocated if needed. Empty if
+// `wanted` returned false.
+std::optional<EdgesFound> find_edge_pixels(const KernelContext& context, const EdgeKernels& kernels, double light_path_work,
+                                           int longest_chain, const Sightings& sightings, const Workers& workers,
                                            std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush

@@ -6,9 +6,9 @@
 namespace blush {
 namespace {
 
-// Over the work of the image's paths. The pilot knows the noise of highlights well, but hardly that of rare paths: where these make most of
-// the noise, more samples of the emission are spent in vain.
-constexpr double largest_work = 1.5;
+// Over the work of the camera's paths. The pilot knows the noise of highlights well, but hardly that of rare paths: where these make most
+// of the noise, more samples of the emission are spent in vain.
+constexpr double largest_added_work = 0.5;
 
 // More samples of the emission in a pixel, or in the pixels of a cell that are not measured.
 struct Step {
@@ -69,7 +69,7 @@ void choose_highlight_samples(std::vector<MeasuredPixel>& measured, std::vector<
         now.mse -= steps[k].gain;
         now.relmse -= steps[k].relative_gain;
         now.work += steps[k].work;
-        if (now.work > largest_work * before.work) break;
+        if (now.work - before.work > largest_added_work * (before.work - before.light_path_work)) break;
         if (now.cost() < best) best = now.cost(), taken = k + 1;
     }
     for (size_t k = 0; k < taken; ++k) {

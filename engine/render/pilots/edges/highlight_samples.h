@@ -15,6 +15,7 @@ namespace blush {
 // Noise and work of the paths of an image.
 struct ImageNoise {
     double mse = 0, relmse = 0, work = 0; // squared errors per sample, in pixels; rays per sample
+    double light_path_work = 0;           // included in `work`
 
     void add(double variance, double scale) {
         mse += variance;
