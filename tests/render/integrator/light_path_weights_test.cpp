@@ -89,23 +89,17 @@ Pixels splats_weighted_for(float counted, const Scene& scene, const RenderSettin
 // Blocks of the sums of two parts of independent images.
 std::vector<Measured> blocks_of(int images, uint32_t first_seed, const auto& parts) {
     constexpr int n = 3, size = side / n;
-    std::array<std::array<Moments, 3>, n * n> moments;
+    BlockMoments moments;
     for (int k = 0; k < images; ++k) {
         const auto [a, b] = parts(first_seed + uint32_t(k));
-        std::array<Vec3d, n * n> means{};
+        std::array<Measured, n * n> blocks{};
         for (size_t i = 0; i < a.size(); ++i) {
-            Vec3d& mean = means[i / side / size * n + i % side / size];
+            Vec3d& mean = blocks[i / side / size * n + i % side / size].mean;
             mean = mean + (a[i] + b[i]) * (1.0 / (size * size));
         }
-        for (size_t i = 0; i < means.size(); ++i) {
-            moments[i][0].add(means[i].x);
-            moments[i][1].add(means[i].y);
-            moments[i][2].add(means[i].z);
-        }
+        moments.add(blocks);
     }
-    std::vector<Measured> measured;
-    for (const auto& [r, g, b] : moments) measured.push_back({{r.mean, g.mean, b.mean}, {r.error(), g.error(), b.error()}});
-    return measured;
+    return moments.measured();
 }
 
 TEST(LightPathWeights, ThatAreWrongDoNotAgree) {
