@@ -6,8 +6,8 @@
 namespace blush {
 namespace {
 
-// Over the work of the camera's paths. The pilot knows the noise of highlights well, but hardly that of rare paths: where these make most
-// of the noise, more samples of the emission are spent in vain.
+// Of the work of the camera's paths. The pilot knows the noise of highlights well, but hardly that of rare paths: where these make most of
+// the noise, more samples of the emission are spent in vain.
 constexpr double largest_added_work = 0.5;
 
 // More samples of the emission in a pixel, or in the pixels of a cell that are not measured.
