@@ -27,11 +27,15 @@ template <class F> struct Wavelength {
     F nanometres;
     Vec<F> rgb;
 };
-template <class F> Wavelength<F> wavelength_of(const Sampler<F>& sampler) {
+// Step of the visible spectrum.
+template <class F> Int<F> wavelength_step(const Sampler<F>& sampler) {
+    return min(to_int(F(sampler.pair(wavelength_dimension).x() * float(Spectrum::steps))), Int<F>(Spectrum::steps - 1));
+}
+template <class F> Wavelength<F> wavelength_at(const Int<F>& step) {
     const Spectrum& spectrum = visible_spectrum();
-    const Int<F> step = min(to_int(F(sampler.pair(wavelength_dimension).x() * float(Spectrum::steps))), Int<F>(Spectrum::steps - 1));
     return {gather(spectrum.nanometres, step), gather3<F>(spectrum.rgb, step)};
 }
+template <class F> Wavelength<F> wavelength_of(const Sampler<F>& sampler) { return wavelength_at<F>(wavelength_step<F>(sampler)); }
 
 // Cauchy's equation from the index `ior` at 587.6 nm, as in the specification; `dispersion` is 20 / Abbe number. At least 1.
 template <class F> F dispersed_ior(const F& ior, const F& dispersion, const F& nanometres) {

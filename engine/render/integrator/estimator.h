@@ -106,7 +106,7 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
     out.non_finite = out.continues && !is_finite(F(next_beta.x + next_beta.y + next_beta.z));
     out.continues = out.continues && !out.non_finite;
     out.crosses = indirect.outward != (dot(side.wo, p.shading.ng) > F(0.f));
-    out.internal = side.solid && !side.front && !out.crosses;
+    out.internal = reflects_partly_within<S, F>(side, bsdf, out.crosses);
     next_path<S, F>(path, p, setup, indirect, next_beta, cone, out.next);
     if constexpr (S.has(Feature::light_paths)) out.next.chain = chain_after<S, F>(scene, path, p, indirect, out, bounce);
     if (beside) continue_ratios<S, F>(scene, settings, p, material, side.wo, indirect, light_ratio, bounce, out.next);

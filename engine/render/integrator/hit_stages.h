@@ -81,6 +81,13 @@ template <Features S, class F>
     return side;
 }
 
+// True where light is reflected within a solid that some of it leaves there; false for total internal reflection. `crosses`: it is
+// refracted. With the BSDF for the way that it came.
+template <Features S, class F> Mask<F> reflects_partly_within(const HitSide<F>& side, const Bsdf<F>& bsdf, const Mask<F>& crosses) {
+    if constexpr (!S.has(Feature::transmission)) return Mask<F>(false);
+    return side.solid && !side.front && !crosses && !totally_reflects(bsdf.interface, bsdf.cos);
+}
+
 // Throughput behind a segment of t metres that ends here from within a solid: beta exp(-sigma_a t) (Beer-Lambert).
 template <Features S, class F> [[gnu::always_inline]] inline Vec<F> attenuate(const Vec<F>& beta, const MaterialPoint<F>& material,
                                                                               const F& t, const HitSide<F>& side, const Mask<F>& surface) {

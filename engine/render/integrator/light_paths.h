@@ -197,7 +197,8 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     if (bounce == 0 && context.scene->emission.alone) continues = continues && s.delta; // else NEE finds the light
     Int<F> chain = Int<F>(0);
     if (samples_manifolds<S>(*context.scene)) {
-        const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)), internal = v.side.solid && !v.side.front && !crosses;
+        const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)),
+                      internal = reflects_partly_within<S, F>(v.side, v.bsdf, crosses);
         const ChainEvent<F> event{s.delta, crosses, internal, has_chains<F>(*context.scene, v.surface.material), begins_chains};
         if (const Mask<F> lit = v.scatters && is_lit_by_chain<F>(path.chain, event); any(lit))
             keep_lit_vertices<F>(*scratch.light_vertices, path, v.surface, v.shading, v.side.wo, lit);

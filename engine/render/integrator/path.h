@@ -53,7 +53,7 @@ template <class F> struct Step {
     ReuseVertex<F> reuse_vertex; // at bounces 0 and 1 only
     Mask<F> emits, connects, continues;
     Mask<F> crosses;     // the path goes on at the other side of the surface
-    Mask<F> internal;    // it is reflected within a solid
+    Mask<F> internal;    // it is reflected within a solid, not totally
     Mask<F> non_finite;  // throughput is not finite: the path ends, and the film drops and counts the sample
     Vec<F> emitted;      // add where `emits`
     Vec<F> direct;       // add where `connects` and the shadow ray is unoccluded

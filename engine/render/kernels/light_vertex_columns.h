@@ -15,6 +15,7 @@ struct LightVertexColumns {
 
     // By slot: events of the chain to the light (shading/manifold_seeds.h), 0 without a light vertex; the light's record.
     Column<int32_t> chain, light;
+    Column<int32_t> wavelength; // of the path, as ManifoldColumns::wavelength
     // The origin of its rays, normals, direction in which light arrives; the light's point (at infinity: direction towards it).
     Columns3 origin, ns, ng, wi, target;
     Columns3 reflected; // flux of the path times reflectance over pi

@@ -20,6 +20,7 @@ struct ManifoldHitColumns {
     // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
     int size = 0;
     Column<int32_t> slot, light, chain;
+    Column<int32_t> wavelength; // as ManifoldColumns::wavelength
     Column<uint32_t> random;
     Columns3 target, emitted;
 };
@@ -32,6 +33,7 @@ struct ManifoldColumns {
     Column<float> arrival;     // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
     Column<float> light_ratio; // light_ratio_behind() of the path; only beside light paths
     Column<int32_t> slot;
+    Column<int32_t> wavelength; // of the path: step of the visible spectrum; only with Feature::dispersion
     // The light: point (at infinity: direction), normal, radiance, density with which the point is sampled (1/m^2; at infinity 1/sr),
     // record; distance from the point below which a walk has converged.
     Columns3 target, target_normal, emission;
@@ -48,7 +50,8 @@ struct ManifoldColumns {
     Column<int32_t> chain, iterations, state; // state: WalkState
 
     // The chain that is traced for the direction: events so far, the ray, its derivatives by two turns of the direction, transmittance.
-    Column<int32_t> events, events_so_far;
+    Column<int32_t> events;
+    Column<int32_t> dispersed; // 1: it carries a single wavelength; only with Feature::dispersion, behind an event
     Columns3 position, ray, position_u, position_v, ray_u, ray_v, transmittance;
 
     // The solution: direction, squared distance within which another is the same, light that it carries, trials to find it again.

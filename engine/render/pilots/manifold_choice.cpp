@@ -13,7 +13,6 @@ namespace {
 const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
     const char* why = why_excluded(settings, CausticStrategy::manifold);
     if (why) return why;
-    if (scene.features().has(Feature::dispersion)) return "a solid has dispersion"; // Newton's method traces one index of refraction
     if (scene.tables().blends) return "a surface is blended"; // chance hits do not know the transmittance of what they have passed
     if (const char* limit = why_no_caustics(settings, scene, film)) return limit;
     return scene.tables().casters.count == 0 ? "no mirror or solid glass has light to focus" : nullptr;
@@ -68,7 +67,7 @@ FeatureUse ManifoldChoice::vertex_report() const {
     if (!pays())
         use.why = "manifold sampling is not used";
     else if (pilot_->emission.empty())
-        use.why = "a pane transmits light straight through";
+        use.why = "a pane transmits light straight through, or a solid has dispersion";
     else if (pilot_->usual_ratio == 0)
         use.why = "pilot: no light path has reached a diffuse surface by mirrors and smooth glass alone";
     else

@@ -136,8 +136,8 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     context.scene = &tables_without;
     SceneTables tables = tables_without;
     tables.manifolds = pilot.seeds.tables(casters);
-    // Light vertices are not connected through panes.
-    if (!tables.panes)
+    // Light vertices are not connected through panes, and have the index of refraction of all wavelengths.
+    if (!tables.panes && !kernel.features.has(Feature::dispersion))
         pilot.emission =
             LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
     context.settings.reuse = {};

@@ -93,7 +93,8 @@ template <Features S, class F>
         const BsdfSample<F> s = sample<S, F>(v.bsdf, v.shading.wo, direction.x(), direction.y(), choice.x());
         const Vec<F> wi = normalize(v.shading.frame.to_world(s.wi));
         const Mask<F> outward = dot(wi, v.shading.ng) > F(0.f), same_side = (s.wi.z > F(0.f)) == outward;
-        const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)), internal = v.side.solid && !v.side.front && !crosses;
+        const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)),
+                      internal = reflects_partly_within<S, F>(v.side, v.bsdf, crosses);
         path.beta = v.beta * delta_light_weight<S, F>(v, s, clamped_cosine<F>(v.shading.ng, wi), choice.x());
         path.ray = {offset_origin(v.surface.position, v.surface.error, v.shading.ng, outward), wi};
         const Int<F> before = path.chain & ((1 << chain_count_shift) - 1);

@@ -89,6 +89,7 @@ template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const Scen
     compress(c.slot + k, path.slot, lanes);
     compress(c.light + k, light, lanes);
     compress(c.chain + k, chain_events<F>(path.chain), lanes);
+    if constexpr (S.has(Feature::dispersion)) compress(c.wavelength + k, wavelength_step<F>(Sampler<F>{path.key, path.index}), lanes);
     compress(c.random + k, pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x3c6ef372u)))), lanes);
     put_all(c.target, target);
     put_all(c.emitted, emitted);
@@ -117,10 +118,12 @@ template <Features S, class F> void add_hit_receivers(const SceneTables& scene, 
         const GroupSeeds<F> seeds = seeds_of_group<F>(t, region_at<F>(t, origin, ns, active), group, active);
         const F density = seeds.probability * p.density / to_float(gather_field(t.groups, &ManifoldGroup::lights, group));
         const int first = c.size;
-        append_receivers<F>(scene, c,
-                            {origin, ns, ns, splat<F>(0.f), p, slot, seeds, density, load<UInt<F>>(hits.random + k),
-                             gather(hits.start_ratio, slot), gather(hits.start_arrival, slot)},
-                            active);
+        Int<F> wavelength = Int<F>(0);
+        if constexpr (S.has(Feature::dispersion)) wavelength = valid(load<Int<F>>(hits.wavelength + k));
+        append_receivers<S, F>(scene, c,
+                               {origin, ns, ns, splat<F>(0.f), p, slot, seeds, density, load<UInt<F>>(hits.random + k),
+                                gather(hits.start_ratio, slot), gather(hits.start_arrival, slot), wavelength, Mask<F>(true)},
+                               active);
         const Vec<F> direction = load3<F>(hits.direction, slot), emitted = load_all(hits.emitted, k);
         const auto put_all = [&](Columns3& column, const Vec<F>& v) {
             store(column.x + first, v.x);

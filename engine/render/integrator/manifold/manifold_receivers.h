@@ -10,13 +10,14 @@
 namespace blush::inline BLUSH_ISA {
 
 // hit: of a path that has found the light by chance (manifold_hits.h); zero_size: no path can.
-// shares: with light paths (path_chain.h).
+// shares: with light paths (path_chain.h). dispersed: the path carries a single wavelength.
 enum ReceiverFlag : int32_t {
     receiver_infinite = 1,
     receiver_two_sided = 2,
     receiver_hit = 4,
     receiver_zero_size = 8,
-    receiver_shares = 16
+    receiver_shares = 16,
+    receiver_dispersed = 32
 };
 
 // Share of samples that take their light from the seeds of the whole scene.
@@ -132,9 +133,11 @@ template <class F> struct ChainReceiver {
     F density; // of the point
     UInt<F> random;
     F light_ratio, arrival;
+    Int<F> wavelength;
+    Mask<F> dispersed;
 };
 // Queues the receivers of `lanes`.
-template <class F>
+template <Features S, class F>
 void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainReceiver<F>& receiver, const Mask<F>& queued) {
     const LightPoint<F>& p = receiver.light;
     const Vec<F> to = p.position - receiver.origin;
@@ -162,10 +165,12 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     compress(c.tolerance + k, tolerance, lanes);
     compress(c.slot + k, receiver.slot, lanes);
     compress(c.light + k, p.light, lanes);
+    if constexpr (S.has(Feature::dispersion)) compress(c.wavelength + k, receiver.wavelength, lanes);
     const Mask<F> shares = Mask<F>(!scene.emission.empty()) && receiver.light_ratio > F(0.f);
     compress(c.kind + k,
-             select(shares, Int<F>(receiver_shares), Int<F>(0)) | select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) |
-                 select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)) | select(zero_size, Int<F>(receiver_zero_size), Int<F>(0)),
+             select(shares, Int<F>(receiver_shares), Int<F>(0)) | select(receiver.dispersed, Int<F>(receiver_dispersed), Int<F>(0)) |
+                 select(p.infinite, Int<F>(receiver_infinite), Int<F>(0)) | select(p.two_sided, Int<F>(receiver_two_sided), Int<F>(0)) |
+                 select(zero_size, Int<F>(receiver_zero_size), Int<F>(0)),
              lanes);
     compress(c.first_seed + k, receiver.seeds.first, lanes);
     compress(c.seeds + k, receiver.seeds.count, lanes);
@@ -208,10 +213,16 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
     const F density = seeds.probability * p.density / to_float(lights);
     const Mask<F> queued = tried && p.valid && density > F(0.f) && shares_chains_to<F>(scene, path, p.light);
     if (!any(queued)) return;
-    append_receivers<F>(scene, c,
-                        {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * (inv_pi / q), p, path.slot, seeds, density, random,
-                         light_ratio_behind<F>(path, v), arrival},
-                        queued);
+    Int<F> wavelength = Int<F>(0);
+    Mask<F> dispersed = Mask<F>(false);
+    if constexpr (S.has(Feature::dispersion)) {
+        wavelength = wavelength_step<F>(Sampler<F>{path.key, path.index});
+        dispersed = as_mask(path.dispersed != 0);
+    }
+    append_receivers<S, F>(scene, c,
+                           {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * (inv_pi / q), p, path.slot, seeds, density, random,
+                            light_ratio_behind<F>(path, v), arrival, wavelength, dispersed},
+                           queued);
 }
 
 } // namespace blush::inline BLUSH_ISA

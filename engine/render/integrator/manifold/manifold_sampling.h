@@ -163,6 +163,16 @@ void pass_event(const DifferentialRay<F>& behind, const SpecularEvent<F>& event,
     w.events = select(taken, Int<F>(w.events + 1), w.events);
 }
 
+// The first event of a path at a dispersive solid gives it the colour of its wavelength (dispersion.h).
+template <class F>
+void disperse_event(ManifoldColumns& c, const Walk<F>& w, const Int<F>& wavelength, const Mask<F>& taken, SpecularEvent<F>& event) {
+    const Mask<F> before = as_mask((gather(c.kind, w.index) & int32_t(receiver_dispersed)) != 0) ||
+                           (as_mask(w.events > 0) && as_mask(gather(c.dispersed, w.index) != 0));
+    const Vec<F> color = wavelength_at<F>(wavelength).rgb;
+    event.transmittance = select<F>(event.disperses && !before, event.transmittance * color, event.transmittance);
+    put_int<F>(c.dispersed, w.index, select(before || event.disperses, Int<F>(1), Int<F>(0)), bits(taken));
+}
+
 // The events at the hits of walks that trace their chain.
 template <Features S, class F>
 void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>& hit, Walk<F>& w, WalkRound<F>& round) {
@@ -179,8 +189,12 @@ void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>&
         const F u = next_random<F>(random);
         for_each_lane(bits(explore && met), [&](int k) { c.random[lane(w.index, k)] = lane(random, k); });
         DifferentialRay<F> behind = w.ray;
-        const auto event = specular_event<S, F>(*context.scene, context.settings, hit, as_mask((bit & 1) != 0), explore, u, met, behind);
+        Int<F> wavelength = Int<F>(0);
+        if constexpr (S.has(Feature::dispersion)) wavelength = gather(c.wavelength, w.index);
+        auto event =
+            specular_event<S, F>(*context.scene, context.settings, hit, as_mask((bit & 1) != 0), explore, u, wavelength, met, behind);
         passed = met && event.valid;
+        if constexpr (S.has(Feature::dispersion)) disperse_event<F>(c, w, wavelength, passed, event);
         round.part = event.part;
         pass_event<F>(behind, event, passed, explore, w);
     }
@@ -421,6 +435,7 @@ inline void queue_light_vertex(ManifoldHitColumns& hits, const LightVertexColumn
     hits.slot[k] = slot;
     hits.light[k] = v.light[slot];
     hits.chain[k] = v.chain[slot];
+    hits.wavelength[k] = v.wavelength[slot];
     hits.random[k] = 0;
     copy(hits.target, k, v.target, slot);
     copy(hits.emitted, k, v.reflected, slot);

@@ -94,7 +94,7 @@ template <class F> Mask<F> has_chains(const SceneTables& scene, const Int<F>& ma
 template <class F> struct ChainEvent {
     Mask<F> delta;    // the path goes on by a delta lobe,
     Mask<F> crosses;  // by refraction,
-    Mask<F> internal; // or is reflected within a solid, which ends a chain
+    Mask<F> internal; // or is reflected within a solid, not totally: that ends a chain, as there are many that carry little light
     Mask<F> chains;   // the material has material_chains
     Mask<F> begins;   // chains begin here, and end for light paths
 };

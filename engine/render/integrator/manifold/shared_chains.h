@@ -21,6 +21,7 @@ template <Features S> void begin_light_chains(const SceneTables& scene, TileScra
         if (!is_end_of_chains<float>(scene, e.light, true) || is_zero_size<float>(scene.lights, e.light)) continue;
         q.chain[k] = 1;
         v.light[q.slot[k]] = e.light;
+        if constexpr (S.has(Feature::dispersion)) v.wavelength[q.slot[k]] = wavelength_step<float>(Sampler<float>{q.key[k], q.index[k]});
         v.target.x[q.slot[k]] = e.light_position.x;
         v.target.y[q.slot[k]] = e.light_position.y;
         v.target.z[q.slot[k]] = e.light_position.z;

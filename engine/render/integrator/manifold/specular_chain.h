@@ -73,24 +73,31 @@ NormalGradient<F> normal_gradient(const SceneTables& scene, const Hit<F>& hit, c
 template <class F> struct SpecularEvent {
     Mask<F> valid;
     Mask<F> refracts;
+    Mask<F> disperses; // the ray carries a single wavelength behind it
     Vec<F> transmittance;
     Int<F> part;
 };
 // The event at the hit of ray.direction; advances `ray` to behind it. `refracts`: which event; the lanes of `chooses` take it by chance
-// with the random number `u`. In the lanes of `active`, whose hit is a surface.
+// with the random number `u`. `wavelength`: the ray's, a step of the visible
+// spectrum. In the lanes of `active`, whose hit is a surface.
 template <Features S, class F>
 [[gnu::noinline, gnu::flatten]] SpecularEvent<F> specular_event(const SceneTables& scene, const EstimatorSettings& settings,
                                                                 const Hit<F>& hit, Mask<F> refracts, const Mask<F>& chooses, const F& u,
-                                                                const Mask<F>& active, DifferentialRay<F>& ray) {
+                                                                const Int<F>& wavelength, const Mask<F>& active, DifferentialRay<F>& ray) {
     const Surface<F> surface = surface_at<S, F>(scene, hit, active);
     MaterialPoint<F> material = material_at<S, F>(scene.materials, surface.material, surface.texture, surface.color, active);
     const Int<F> flags = gather_field(scene.materials.materials, &MaterialRecord::flags, surface.material);
     const HitSide<F> side = hit_side<S, F>(surface, material, ray.direction);
     const Vec<F> absorbed = attenuate<S, F>(splat<F>(1.f), material, hit.t, side, active);
     const ShadingFrame<F> shading = shading_frame_at<S, F>(surface, material, side.wo, side.front, side.solid);
-    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
-
     SpecularEvent<F> event;
+    event.disperses = Mask<F>(false);
+    if constexpr (S.has(Feature::dispersion)) {
+        event.disperses = active && side.solid && material.dispersion > F(0.f);
+        const F ior = dispersed_ior(material.bsdf.ior, material.dispersion, wavelength_at<F>(wavelength).nanometres);
+        material.bsdf.ior = select(event.disperses, ior, material.bsdf.ior);
+    }
+    const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, shading.wo, settings.energy);
     event.part = surface.part;
     const FacetAlbedo<F> albedo = facet_albedo<S>(bsdf, bsdf.cos);
     refracts = select(chooses, u >= facet_probability<S>(albedo, Mask<F>(true)), refracts);
@@ -98,7 +105,7 @@ template <Features S, class F>
     event.transmittance = absorbed * select<F>(refracts, albedo.transmitted * bsdf.radiance_scale, albedo.reflected);
     const Mask<F> delta = bsdf.smooth || (refracts && bsdf.straight);
     event.valid = active && as_mask((flags & int32_t(material_chains)) != 0) && delta && (!refracts || bsdf.solid) &&
-                  !(!refracts && side.solid && !side.front) && max_component(event.transmittance) > F(0.f);
+                  !reflects_partly_within<S, F>(side, bsdf, refracts) && max_component(event.transmittance) > F(0.f);
 
     // The normal on the ray's side, and its derivatives.
     const Mask<F> below = shading.wo.z < F(0.f);

@@ -92,19 +92,35 @@ inline std::vector<std::pair<const char*, Scene>> lit_scenes() {
     return scenes;
 }
 
+inline void add_walls(Scene& scene) {
+    const auto wall = [&](const Vec3& center, const Vec3& size) {
+        Transform t = at(center);
+        t.scale = size;
+        place(scene, cube(false), lambert({0.8f, 0.75f, 0.7f}), t);
+    };
+    wall({0, 0.8f, -1.6f}, {2, 0.8f, 0.1f});
+    wall({-1.8f, 0.8f, 0}, {0.1f, 0.8f, 1.6f});
+}
+
 // Walls that see the caustics on the floor.
 inline std::vector<std::pair<const char*, Scene>> walled_scenes() {
     auto scenes = lit_scenes();
-    for (auto& [name, scene] : scenes) {
-        const auto wall = [&](const Vec3& center, const Vec3& size) {
-            Transform t = at(center);
-            t.scale = size;
-            place(scene, cube(false), lambert({0.8f, 0.75f, 0.7f}), t);
-        };
-        wall({0, 0.8f, -1.6f}, {2, 0.8f, 0.1f});
-        wall({-1.8f, 0.8f, 0}, {0.1f, 0.8f, 1.6f});
-    }
+    for (auto& [name, scene] : scenes) add_walls(scene);
     return scenes;
+}
+
+// Solids that spread light by its wavelength: a ball, and a cube that also reflects it totally. A second ball does not.
+inline Scene dispersive_solids() {
+    Scene scene;
+    place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
+    Material flint = glass(0, 1.5f);
+    flint.dispersion = 4;
+    place(scene, round_sphere(), flint, at({-0.7f, 0.5f, 0}, 0.4f));
+    place(scene, cube(false), flint, at({0.7f, 0.4f, 0.2f}, 0.25f));
+    place(scene, round_sphere(), glass(0, 1.5f), at({0, 0.3f, 0.9f}, 0.25f));
+    place(scene, ceiling_quad(0.7f, 2.5f), emitter(10));
+    scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
+    return scene;
 }
 
 // A block of water of the size of the pool, whose top has waves that focus on the bottom. Its sides are in the walls.

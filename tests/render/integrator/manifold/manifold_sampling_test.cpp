@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,7 @@ TEST(ManifoldSampling, AgreesWithTheOtherStrategies) {
         agrees_with_the_other_strategies(scene, 16);
     }
 }
+TEST(ManifoldSampling, AgreesForDispersiveSolids) { agrees_with_the_other_strategies(dispersive_solids(), 32); }
 TEST(ManifoldSampling, AgreesBehindPanes) { agrees_with_the_other_strategies(behind_panes(), 32); }
 
 // Lights without size: nothing finds them by chance. All light that the balls focus is in chains, as none of them is of glass.
@@ -103,6 +105,35 @@ TEST(ManifoldSampling, FindsTheSunThroughASlab) {
         const double expected = 0.5 / double(pi) * 4 * c * passed * passed;
         EXPECT_TRUE(is_mean(image_of(renderer).whole(), expected, significance, 1e-4 * expected)) << ior << ", angle " << angle;
     }
+}
+
+// A prism with a right angle over a floor. Sunlight from just below the horizon enters its upright face, is reflected totally by the slope
+// and leaves by the lower face: (1 - F)^2 of it arrives at the floor, by this chain alone. Paths end before others.
+TEST(ManifoldSampling, FindsTheSunByTotalReflection) {
+    constexpr double ior = 1.5, below = 2 * double(pi) / 180; // the sun's angle, and that to both normals
+    Scene scene;
+    place(scene, floor_quad(3), lambert(0.5f));
+    Geometry body;
+    for (const float z : {-6.f, 6.f})
+        for (const Vec3& p : {Vec3{-5, 1, z}, Vec3{5, 1, z}, Vec3{-5, 11, z}}) body.positions.push_back(p);
+    // Counter-clockwise seen from outside; the corners of an end are so seen from +z.
+    body.indices = {0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5};
+    place(scene, std::make_shared<const Geometry>(std::move(body)), glass(0, float(ior)));
+    Light sun = caustic_light(Light::Kind::sun, 4);
+    sun.angle_radians = 0.0087f;
+    place_light(scene, sun, aimed({0, 5, 0}, to_float(Vec3d{std::cos(below), std::sin(below), 0})));
+    scene.view = looking({0, 0.5f, 0.8f}, {0, 0, 0}, 0.6f);
+    RenderSettings settings = settings_for(24, 24, 16);
+    settings.max_bounces = 4;
+    Renderer renderer({.threads = 2, .caustics = {.light_path_share = 0.f, .manifold_sampling = true}});
+    renderer.update(scene, settings);
+    renderer.render(0, settings.spp);
+    ASSERT_TRUE(feature_line(renderer, "manifold sampling").used);
+    const double c = std::cos(below), g = std::sqrt(ior * ior - 1 + c * c);
+    const double s = (c - g) / (c + g), p = (ior * ior * c - g) / (ior * ior * c + g), passed = 1 - (s * s + p * p) / 2;
+    // The Fresnel term and the cosine over the sun's disk vary by less than the slack.
+    const double expected = 0.5 / double(pi) * 4 * c * passed * passed;
+    EXPECT_TRUE(is_mean(image_of(renderer).whole(), expected, significance, 2e-4 * expected));
 }
 
 TEST(ManifoldSampling, DoesNotDependOnThreadsAndParts) {

@@ -22,6 +22,7 @@ std::vector<std::pair<const char*, Scene>> shared_scenes() {
     scenes.emplace_back("balls between walls, spheres", std::move(walled[2].second));
     scenes.emplace_back("balls between walls, a sun", std::move(walled[3].second));
     scenes.emplace_back("dry walls of a pool", dry_walls());
+    add_walls(scenes.emplace_back("dispersive solids between walls", dispersive_solids()).second);
     return scenes;
 }
 
