@@ -87,6 +87,7 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::Success& asked) { // --help, --version
         return app.exit(asked);
     } catch (const CLI::ParseError& error) { return bad_usage(error.what()); }
+    if (const std::string wrong = option_as_value(app); !wrong.empty()) return bad_usage(wrong);
     return run();
 }
 

@@ -33,6 +33,19 @@ int bad_usage(const std::string& what) {
     return exit_usage;
 }
 
+std::string option_as_value(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_positional()) continue;
+        for (const std::string& value : option->results())
+            if (value.starts_with("--"))
+                return fmt::format("{} has no value before {}: give it one, or write ./{} for a file of this name", option->get_name(),
+                                   value, value);
+    }
+    for (const CLI::App* command : app.get_subcommands())
+        if (std::string wrong = option_as_value(*command); !wrong.empty()) return wrong;
+    return {};
+}
+
 void print_warnings(const std::string& file, const std::vector<Diagnostic>& diagnostics) {
     constexpr size_t shown = 10;
     size_t count = 0;

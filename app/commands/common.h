@@ -25,6 +25,10 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 int failed(const Error& error);
 int bad_usage(const std::string& what);
 
+// Of parsed arguments: what is wrong if the value of an option begins with "--"; else empty. The parser takes the next option as the value
+// of one that has none.
+std::string option_as_value(const CLI::App& app);
+
 // Prints the first ten warnings on stderr, one line each; notes are only printed by `blush info`.
 void print_warnings(const std::string& file, const std::vector<Diagnostic>& diagnostics);
 

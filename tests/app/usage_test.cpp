@@ -61,6 +61,20 @@ TEST(Usage, UsageErrorsExitWithTwo) {
     EXPECT_TRUE(refused(2, {"a.gltf", "b.gltf"}, "b.gltf"));
 }
 
+// The next option is not taken as the value of one that lacks its own: no file is written under its name.
+TEST(Usage, OptionsAreNoValues) {
+    const std::string scene = scene_file("cornell");
+    const TemporaryFolder folder;
+    EXPECT_TRUE(
+        refused(2, {"render", scene, "-o", folder / "x.exr", "--spp", "1", "--json", "--quiet"}, "--json has no value before --quiet"));
+    EXPECT_TRUE(refused(2, {"render", scene, "-o", "--quiet"}, "--output has no value before --quiet"));
+    EXPECT_TRUE(refused(2, {"info", scene, "--json", "--unknown"}, "./--unknown"));
+    EXPECT_TRUE(refused(2, {"--json", "--quiet"}, "--json"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_FALSE(std::filesystem::exists("--quiet") || std::filesystem::exists("--unknown"));
+    EXPECT_EQ(test::blush({"info", scene, "--json", "-"}).exit_code, 0); // stdout
+}
+
 TEST(Usage, FailuresExitWithOneAndNameTheFile) {
     const TemporaryFolder folder;
     std::ofstream(folder / "broken.gltf") << "{ \"asset\": ";
