@@ -172,7 +172,7 @@ struct Renderer::State {
         film_is_stale = false;
     }
     CausticFinders caustic_finders() const {
-        if (!splats) return CausticFinders::none;
+        if (!splats) return divider == 1 && learned.uses_manifolds() ? CausticFinders::manifolds : CausticFinders::none;
         return learned.uses_manifolds() ? CausticFinders::light_paths_and_manifolds : CausticFinders::light_paths;
     }
     // Pixels in the groups of path reuse in which samples of the film are correlated; 1: none.

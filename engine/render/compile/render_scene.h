@@ -149,7 +149,7 @@ private:
     Features features_;
     bool has_geometry_ = false, has_environment_map_ = false;
     NeeLights aim_ = NeeLights::all_lights;                   // as passed last time
-    std::array<std::string, 3> missing_light_;                // by CausticFinders
+    std::array<std::string, 4> missing_light_;                // by CausticFinders
     std::shared_ptr<const std::vector<Diagnostic>> warnings_; // replaced if they change; never null after an update
 };
 

@@ -48,11 +48,14 @@ std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes
     if (finders == CausticFinders::none)
         which = std::string("that of point, spot and sun lights of zero size, ") +
                 (surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces");
+    else if (finders == CausticFinders::manifolds)
+        which = "caustics of point, spot and sun lights of zero size that are not on Lambertian surfaces, or";
     else
         which = std::string("caustics of point, spot and sun lights of zero size, where they are seen ") +
                 (surfaces.glass ? "through smooth glass or in smooth surfaces" : "in smooth surfaces");
-    if (finders == CausticFinders::light_paths_and_manifolds)
-        which += " and come by way of more than six surfaces, or by reflections within glass";
+    if (finders == CausticFinders::light_paths_and_manifolds) which += " and";
+    if (finders == CausticFinders::manifolds || finders == CausticFinders::light_paths_and_manifolds)
+        which += " come by way of more than six surfaces, or by reflections within glass";
     return "some light cannot be found: " + which + "; give these lights a radius or an angle, or the material some roughness";
 }
 

@@ -21,7 +21,7 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
 // `nodes`: those with lights (expanded_lights.h).
 int count_zero_size_lights(const Scene& scene, const std::vector<Id<Node>>& nodes);
 // What finds such light.
-enum class CausticFinders { none, light_paths, light_paths_and_manifolds };
+enum class CausticFinders { none, light_paths, manifolds, light_paths_and_manifolds };
 // User message about the missing light and how to get it back; empty if all light can be found. `nodes`: those with lights
 // (expanded_lights.h).
 std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes, const SmoothSurfaces& surfaces, CausticFinders finders);
