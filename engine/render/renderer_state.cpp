@@ -224,8 +224,9 @@ ErrorEstimate Renderer::estimate_error() {
     State& s = *state_;
     s.clear_stale_film();
     const int group_size = s.film_group_size();
-    ErrorEstimate error = s.correlates_pixels() ? s.film.estimate_error(s.workers, measure_block_covariance(s.film).products)
-                                                : blush::estimate_error(s.film, group_size, s.workers);
+    ErrorEstimate error = s.correlates_pixels()
+                              ? s.film.estimate_error(s.workers, measure_block_covariance(s.film).products)
+                              : blush::estimate_error(s.film, group_size, s.workers, s.divider == 1 ? s.edges.pixels(1) : nullptr);
     // Both halves miss the same light, so their difference does not show that error.
     if (!s.scene.missing_light(s.caustic_finders()).empty()) {
         error.known = error.known && error.high > 0;

@@ -47,9 +47,11 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
 
     const double values = 3 * double(sums.pixels);
     const double inequality = square_of(share_of_inequality * sums.unequal / absolute.squares);
-    const bool brightest_seen = sums.brightest <= max_brightest_share * absolute.squares;
+    // Few pixels at a bright lamp carry most of the squared error, even with more samples of the emission, and their halves may agree by
+    // chance. So these only count for relmse, in which a bright pixel is one of many.
+    const auto is_seen = [&](double brightest) { return brightest <= max_brightest_share * absolute.squares; };
     const double absolute_width = log_interval(sharing * log_variance(sums, absolute) + inequality);
-    e.rmse_known = brightest_seen && has_enough_degrees_of_freedom(absolute);
+    e.rmse_known = is_seen(sums.brightest) && has_enough_degrees_of_freedom(absolute);
     e.rmse = std::sqrt(absolute.squares / values);
     e.rmse_low = e.rmse * std::exp(-absolute_width / 2);
     e.rmse_high = e.rmse * std::exp(absolute_width / 2);
@@ -57,7 +59,7 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     const double choice = std::log(sums.relative_high / relative.squares);
     const double relative_width =
         log_interval(sharing * log_variance(sums, relative) + inequality + square_of(darkest_bias_sigma * choice));
-    e.known = brightest_seen && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
+    e.known = is_seen(sums.met) && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
     e.relmse = relative.squares / values * std::exp(darkest_bias * choice);
     e.low = e.relmse * std::exp(-relative_width);
     e.high = e.relmse * std::exp(relative_width);

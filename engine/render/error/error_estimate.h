@@ -28,7 +28,8 @@ namespace blush {
 // against converged references, is added to the interval.
 //
 // Unknown for fewer than 64 pixels; if few of them carry the error; if one more sample of the brightest light could be a large
-// part of it; for relmse, if the interval spans more than a factor of 10.
+// part of it; for relmse, if the interval spans more than a factor of 10. One more sample: for relmse, of the emission, where the pixel and
+// those around it take more of these (edge_pixels.h).
 //
 // `sharing`: variance of the sums of products relative to independent pixels (path reuse correlates pixels).
 ErrorEstimate estimate_error(const ErrorSums& sums, double sharing = 1);

@@ -19,6 +19,7 @@ struct ErrorSums {
     double relative_high = 0; // squares divided by the darkest neighbourhood
     double unequal = 0;       // squares, each times the relative difference of the weights of the two halves
     double brightest = 0;     // lower bound of the square that one sample of the brightest pixel contributes
+    double met = 0;           // the same of one of its samples of the emission, where it and those around it take more of these
     double largest = 0;       // largest value of the image, of any channel
 
     // Adds the sums of the rows below.

@@ -79,8 +79,8 @@ ReuseCovariance measure_block_covariance(const Film& film) {
     return shared;
 }
 
-ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers) {
-    return film.estimate_error(workers, reuse > 1 ? measure_reuse_covariance(film, reuse_groups(reuse)).products : 1);
+ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers, const EdgePixels* edges) {
+    return film.estimate_error(workers, reuse > 1 ? measure_reuse_covariance(film, reuse_groups(reuse)).products : 1, edges);
 }
 
 } // namespace blush

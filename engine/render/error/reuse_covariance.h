@@ -5,6 +5,7 @@
 
 namespace blush {
 
+class EdgePixels;
 class Film;
 class Workers;
 struct ErrorEstimate;
@@ -30,7 +31,7 @@ ReuseCovariance measure_sampler_covariance(const Film& film);
 // blocks of 8 x 8 pixels, 16 x 16 and so on, as long as there are enough of them to tell.
 ReuseCovariance measure_block_covariance(const Film& film);
 
-// For a film rendered with `reuse` pixels per group.
-ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers);
+// For a film rendered with `reuse` pixels per group. `edges`: as for Film::estimate_error.
+ErrorEstimate estimate_error(const Film& film, int reuse, const Workers& workers, const EdgePixels* edges = nullptr);
 
 } // namespace blush

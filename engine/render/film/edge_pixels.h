@@ -31,6 +31,15 @@ public:
     // Emission samples per sample; 0: none.
     int samples(int x, int y) const { return samples_.empty() ? 0 : samples_[place(x, y)]; }
     bool has(int x, int y) const { return samples(x, y) > 0; }
+    // The least number that this pixel and those around it take of the emission for each sample, their own or more: a lamp in it may reach
+    // into any of them.
+    int fewest_near(int x, int y) const {
+        int fewest = samples(x, y);
+        const int height = width_ > 0 ? int(samples_.size() / size_t(width_)) : 0;
+        for (int v = std::max(0, y - 1); fewest > 1 && v <= std::min(height - 1, y + 1); ++v)
+            for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) fewest = std::min(fewest, samples(u, v));
+        return std::max(1, fewest);
+    }
     // In a rectangle.
     bool any(int x, int y, int width, int height) const {
         for (int v = y; v < y + height; ++v)

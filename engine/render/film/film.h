@@ -120,8 +120,8 @@ public:
     // Writes everything except the error: pixels, planes, health.
     // Reuses the frame's memory. Material ids remain table indices + 1.
     void resolve(Frame& frame, const Workers& workers) const;
-    // `sharing`: see reuse_covariance.h.
-    ErrorEstimate estimate_error(const Workers& workers, double sharing = 1) const;
+    // `sharing`: see reuse_covariance.h. `edges`: the pixels with more samples of the emission; null: none, or not known.
+    ErrorEstimate estimate_error(const Workers& workers, double sharing = 1, const EdgePixels* edges = nullptr) const;
     // Standard error of each pixel's mean from the two halves, RGB; empty before both hold samples.
     std::vector<Vec3> standard_error() const;
 
@@ -204,7 +204,7 @@ private:
     static constexpr int band_rows = 32;
     size_t count_bands() const;
     void for_each_band(const Workers& workers, const std::function<void(size_t band, int first, int last)>& task) const;
-    void load_half_buffers(int y, float scale, HalfBufferRow& row) const;
+    void load_half_buffers(int y, float scale, const EdgePixels* edges, HalfBufferRow& row) const;
 
     int width_ = 0, height_ = 0;
     PlaneSet planes_;

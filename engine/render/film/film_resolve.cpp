@@ -156,7 +156,7 @@ PixelHalfBuffers Film::half_buffers(size_t pixel) const {
     return {true, sum(pixel, 0) / na, sum(pixel, 1) / nb, na * weights(a, b).a};
 }
 
-void Film::load_half_buffers(int y, float scale, HalfBufferRow& row) const {
+void Film::load_half_buffers(int y, float scale, const EdgePixels* edges, HalfBufferRow& row) const {
     // Cached weights: most pixels have as many samples as the one before.
     struct Counted {
         int64_t a = -1, b = -1;
@@ -194,16 +194,17 @@ void Film::load_half_buffers(int y, float scale, HalfBufferRow& row) const {
         row.weight_a[x] = n.weight_a;
         row.known[x] = n.known ? 1.f : 0.f;
         row.one_sample[x] = n.one_sample;
+        row.one_meeting[x] = edges ? n.one_sample / float(edges->fewest_near(x, y)) : n.one_sample;
     }
 }
 
-ErrorEstimate Film::estimate_error(const Workers& workers, double sharing) const {
+ErrorEstimate Film::estimate_error(const Workers& workers, double sharing, const EdgePixels* edges) const {
     // A single sample has no second half to compare with.
     size_t i = 0;
     const size_t n = size_t(width_) * size_t(height_);
     while (i < n && !half_buffers(i).known) ++i;
     if (i == n) return {};
-    const HalfBufferImage image{width_, height_, [this](int y, float scale, HalfBufferRow& row) { load_half_buffers(y, scale, row); }};
+    const HalfBufferImage image{width_, height_, [&](int y, float scale, HalfBufferRow& row) { load_half_buffers(y, scale, edges, row); }};
     std::vector<ErrorSums> bands(count_bands());
     for_each_band(workers, [&](size_t band, int first, int last) { bands[band] = sum_errors(image, first, last); });
     ErrorSums sums;

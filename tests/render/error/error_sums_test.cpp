@@ -2,6 +2,7 @@
 #include "core/math.h"
 #include "render/error/error_estimate.h"
 #include "render/error/neighborhood_filter.h"
+#include "render/film/edge_pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ struct Halves {
                         }
                         row.weight_a[x] = 0.5f;
                         row.known[x] = known(x, y) ? 1.f : 0.f;
-                        row.one_sample[x] = known(x, y) ? 0.25f : 0.f;
+                        row.one_sample[x] = row.one_meeting[x] = known(x, y) ? 0.25f : 0.f;
                     }
                 }};
     }
@@ -122,7 +123,7 @@ HalfBufferImage firefly(float around, float pixel, float in_firefly, float sampl
                     }
                     row.weight_a[x] = 0.5f;
                     row.known[x] = 1;
-                    row.one_sample[x] = 1 / samples;
+                    row.one_sample[x] = row.one_meeting[x] = 1 / samples;
                 }
             }};
 }
@@ -178,6 +179,34 @@ TEST(ErrorSums, ScaleBeyondSinglePrecision) {
             EXPECT_NEAR(e.relmse / (brightness * brightness), dark.relmse * 1e10, 0.01 * dark.relmse * 1e10) << brightness;
         }
     }
+}
+
+// A lamp of radiance 1000 in nine pixels of a noisy image of 32 x 32. With four samples a pixel, one more of the lamp adds 250; where the
+// pixels at the lamp and those around them take 64 samples of the emission for each, 4.
+TEST(ErrorEstimate, IsKnownWherePixelsTakeManySamplesOfTheirLamp) {
+    constexpr int side = 32;
+    const Halves noise(side, side, 0.5);
+    const auto estimate = [&](int reach) { // of the pixels with more samples, beyond the lamp
+        EdgePixels edges(side, side);
+        for (int y = 16 - reach; y < 19 + reach; ++y)
+            for (int x = 16 - reach; x < 19 + reach; ++x) edges.add(x, y, highlight_samples);
+        const HalfBufferImage image{side, side, [&](int y, float scale, HalfBufferRow& row) {
+                                        noise.rows().load(y, scale, row);
+                                        for (int x = 0; x < side; ++x) {
+                                            row.one_meeting[x] = row.one_sample[x] / float(edges.fewest_near(x, y));
+                                            if (x < 16 || x > 18 || y < 16 || y > 18) continue;
+                                            for (size_t c = 0; c < 3; ++c)
+                                                for (ChannelRows* of : {&row.a, &row.b, &row.own}) (*of)[c][x] += 1000 * scale;
+                                        }
+                                    }};
+        return estimate_error(sum_errors(image, 0, side));
+    };
+    const ErrorEstimate around = estimate(1), within = estimate(0);
+    EXPECT_TRUE(around.known);
+    EXPECT_FALSE(around.rmse_known); // the halves of the lamp may agree by chance
+    // The lamp may reach into a pixel beside it that takes one sample.
+    EXPECT_FALSE(within.known || within.rmse_known);
+    EXPECT_EQ(around.relmse, within.relmse);
 }
 
 // 16 times the variance is 4 times the width, on a logarithmic scale; the uncertainty of relmse's divisor is separate.
