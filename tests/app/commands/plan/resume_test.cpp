@@ -37,8 +37,8 @@ void run_missing(const SmallPlan& plan) {
 TEST(PlanRounds, GoOnUntilTheIntervalSaysSo) {
     const TemporaryFolder folder;
     const SmallPlan plan{.scene = test::scene_file("cornell"), .folder = folder / "plan"};
-    const double wanted = 0.02;
-    expect_done({"plan", plan.scene, "-o", plan.folder, "--quiet", "--size", "40x24", "--error", "0.02", "--chunk", "16"});
+    const double wanted = 0.002;
+    expect_done({"plan", plan.scene, "-o", plan.folder, "--quiet", "--size", "40x24", "--error", "0.002", "--chunk", "16"});
     EXPECT_EQ(plan.tasks(), 1) << "the first round is one chunk";
     int rounds = 0;
     for (; rounds < 20; ++rounds) {
