@@ -55,7 +55,7 @@ std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes
                 (surfaces.glass ? "through smooth glass or in smooth surfaces" : "in smooth surfaces");
     if (finders == CausticFinders::light_paths_and_manifolds) which += " and";
     if (finders == CausticFinders::manifolds || finders == CausticFinders::light_paths_and_manifolds)
-        which += " come by way of more than six surfaces, or by reflections within glass";
+        which += " come by way of more than six surfaces, or by partial reflections within glass";
     return "some light cannot be found: " + which + "; give these lights a radius or an angle, or the material some roughness";
 }
 

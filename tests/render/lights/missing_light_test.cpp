@@ -104,10 +104,10 @@ TEST(MissingLight, IsWhatTheStrategiesOfTheImageDoNotFind) {
     EXPECT_EQ(missing(CausticStrategy::light_paths), by_light_paths + end);
     EXPECT_EQ(missing(CausticStrategy::manifold),
               "some light cannot be found: caustics of point, spot and sun lights of zero size that are not on Lambertian surfaces, or "
-              "come by way of more than six surfaces, or by reflections within glass" +
+              "come by way of more than six surfaces, or by partial reflections within glass" +
                   end);
     EXPECT_EQ(missing(CausticStrategy::automatic),
-              by_light_paths + " and come by way of more than six surfaces, or by reflections within glass" + end);
+              by_light_paths + " and come by way of more than six surfaces, or by partial reflections within glass" + end);
 }
 
 } // namespace
