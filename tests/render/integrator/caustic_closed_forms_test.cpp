@@ -28,6 +28,7 @@ struct Ways {
 };
 const Ways automatic{"auto", CausticStrategy::automatic, {}};
 const Ways light_paths{"light paths", CausticStrategy::light_paths, {.light_path_share = 1.f, .manifold_sampling = false}};
+const Ways manifold_sampling{"manifold sampling", CausticStrategy::manifold, {.light_path_share = 0.f, .manifold_sampling = true}};
 
 std::vector<Measured> blocks_of(const Scene& scene, RenderSettings settings, const Ways& ways, int images = 10) {
     settings.caustics = ways.setting;
@@ -267,10 +268,13 @@ TEST(CausticClosedForms, APrismSendsEachWavelengthWhereSnellsLawDoes) {
     };
     RenderSettings settings = settings_for(columns * 3, columns * 3, 48);
     settings.max_bounces = 3; // the floor and two refractions
-    for (const Ways& ways : {automatic, light_paths}) {
+    for (const Ways& ways : {automatic, light_paths, manifold_sampling}) {
         SCOPED_TRACE(ways.name);
         settings.caustics = ways.setting;
-        const auto seen = image_regions(prism_in_the_sun(), settings, ways.options, 10, 1, 3, columns * 3, [](Renderer&) {});
+        const auto seen = image_regions(prism_in_the_sun(), settings, ways.options, 10, 1, 3, columns * 3, [&](Renderer& renderer) {
+            if (ways.options.manifold_sampling)
+                EXPECT_EQ(feature_line(renderer, "manifold sampling").used, *ways.options.manifold_sampling);
+        });
         EXPECT_TRUE(same_means(seen, expected_with([&](double l) { return flint_index(l, dispersion); })));
         EXPECT_FALSE(same_means(seen, expected_with([&](double l) { return flint_index(l, 0.95 * dispersion); }))) << "too weak for 5 %";
         // The place of the bands: their centre of light, red least deviated.
