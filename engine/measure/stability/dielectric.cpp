@@ -126,28 +126,16 @@ Findings sun_through_solid_glass() {
     return whole(render_anything(scene, settings), 0.5 * passes);
 }
 
-// A floor in a parallel sun at 45 degrees, and beside a block of glass that reflects once all that enters its top: what passes two faces
-// comes to the floor from the other side. A mirror shows it: light paths end there, and manifold sampling finds it.
+// The floor beside a block of glass that reflects once all that enters its top: what passes two faces comes to the floor from the other
+// side. Light paths end in the mirror; manifold sampling finds it.
 Findings sun_totally_reflected_in_glass() {
-    constexpr double ior = 1.5, cosine = std::numbers::sqrt2 / 2, reach = 0.1;
+    constexpr double ior = 1.5, cosine = std::numbers::sqrt2 / 2;
     const double sine_inside = cosine / ior, wide = sine_inside / std::sqrt(1 - sine_inside * sine_inside); // per metre of height
-    Scene scene;
-    place(scene, floor_quad(50), lambert(0.01f)); // hardly any light goes back to the block
-    Transform block = at({0, 1.6f, 0});
-    block.scale = {float(wide / 2), 0.5f, 5};
-    place(scene, cube(false), glass(0, float(ior)), block);
-    Light sun;
-    sun.kind = Light::Kind::sun;
-    sun.intensity = float(std::numbers::pi / cosine);
-    place_light(scene, sun, aimed({0, 5, 0}, {1, -1, 0}));
-    const float mirror = -3, middle = -1.1f;
-    place(scene, quad({mirror, 0.1f, 1}, {mirror, 0.1f, -1}, {mirror, 0.7f, -1}, {mirror, 0.7f, 1}), metal(0));
-    scene.view = looking({-2, 0.8f, 0}, {2 * mirror - middle, 0, 0}, float(reach) / 4);
+    Scene scene = sunlit_floor_in_a_mirror();
+    place(scene, cube(false), glass(0, float(ior)), box({0, 1.6f, 0}, {float(wide / 2), 0.5f, 5}));
     RenderSettings settings = settings_for(16, 16, 64);
     settings.max_bounces = 5;
-    const double c = std::sqrt(1 - sine_inside * sine_inside), s = (cosine - ior * c) / (cosine + ior * c),
-                 p = (ior * cosine - c) / (ior * cosine + c);
-    const double passes = 1 - (s * s + p * p) / 2;
+    const double passes = 1 - fresnel(ior, cosine);
     return whole(render_anything(scene, settings), 0.01 * (1 + passes * passes));
 }
 

@@ -153,22 +153,14 @@ Findings white_dielectric(double degrees) {
     return whole(render(scene, settings_for(16, 16, 64)), 1);
 }
 
-// A floor that a mirror shows, beside a plate of glass that reflects a parallel sun onto it: once with its face, which is found, and once
-// from within, which is not. Paths end before the light is reflected more often.
+// The floor beside a plate of glass that reflects the sun onto it: once with its face, which is found, and once from within, which is not.
+// Paths end before the light is reflected more often.
 Findings sun_reflected_within_a_plate() {
     constexpr double ior = 2.4, cosine = std::numbers::sqrt2 / 2;
-    Scene scene;
-    place(scene, floor_quad(50), lambert(0.01f)); // hardly any light goes back to the plate
+    Scene scene = sunlit_floor_in_a_mirror();
     Transform plate = at({0.05f, 1.1f, 0});
     plate.scale = {0.05f, 0.6f, 5};
     place(scene, cube(false), glass(0, float(ior)), plate);
-    Light sun;
-    sun.kind = Light::Kind::sun;
-    sun.intensity = float(std::numbers::pi / cosine);
-    place_light(scene, sun, aimed({0, 5, 0}, {1, -1, 0}));
-    const float mirror = -3, middle = -1.1f;
-    place(scene, quad({mirror, 0.1f, 1}, {mirror, 0.1f, -1}, {mirror, 0.7f, -1}, {mirror, 0.7f, 1}), metal(0));
-    scene.view = looking({-2, 0.8f, 0}, {2 * mirror - middle, 0, 0}, 0.025f);
     RenderSettings settings = settings_for(16, 16, 64);
     settings.max_bounces = 5;
     const double c = std::sqrt(1 - 0.5 / (ior * ior)), s = (cosine - ior * c) / (cosine + ior * c),

@@ -187,4 +187,17 @@ View looking_down(float half, float y) {
     return view;
 }
 
+Scene sunlit_floor_in_a_mirror() {
+    constexpr float mirror = -3, middle = -1.1f;
+    Scene scene;
+    place(scene, floor_quad(50), lambert(0.01f));
+    Light sun;
+    sun.kind = Light::Kind::sun;
+    sun.intensity = float(std::numbers::pi * std::numbers::sqrt2);
+    place_light(scene, sun, aimed({0, 5, 0}, {1, -1, 0}));
+    place(scene, quad({mirror, 0.1f, 1}, {mirror, 0.1f, -1}, {mirror, 0.7f, -1}, {mirror, 0.7f, 1}), metal(0));
+    scene.view = looking({-2, 0.8f, 0}, {2 * mirror - middle, 0, 0}, 0.025f);
+    return scene;
+}
+
 } // namespace blush::stability
