@@ -76,7 +76,7 @@ bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kerne
         const Kernel& chains = kernel_like(own, own.features.with(Feature::light_paths));
         if (!traced) traced = trace_caustic_photons(with, own, others...);
         if (!traced) return std::nullopt;
-        return measure_manifolds(with, *traced, scene_sphere_, scene.casters, manifolds_.forced_sharing(), chains,
+        return measure_manifolds(with, *traced, scene_sphere_, scene.casters, manifolds_.forced_sharing(), manifolds_.disperses(), chains,
                                  light_paths_.combined() ? chains : own, others...);
     };
     const auto learn_roulette = [&](const KernelContext& with, auto&&... others) -> std::optional<AdjointPilot> {

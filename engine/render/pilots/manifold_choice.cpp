@@ -23,7 +23,7 @@ const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& 
 ManifoldChoice::ManifoldChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film,
                                const CausticOptions& options)
     : useless_(why_no_manifolds(settings, scene, film)), used_(options.manifold_sampling), uses_vertices_(options.light_vertices),
-      shares_(options.shared_chains), casters_(scene.tables().casters) {}
+      shares_(options.shared_chains), disperses_(scene.features().has(Feature::dispersion)), casters_(scene.tables().casters) {}
 
 void ManifoldChoice::decide(ManifoldPilot pilot) {
     if (!useless_) pilot_ = std::move(pilot);

@@ -41,6 +41,8 @@ public:
     bool shares_chains() const { return pays() && pilot_->shares; }
     // Overrides the pilot about it.
     std::optional<bool> forced_sharing() const { return shares_; }
+    // True if a solid of the scene has dispersion: then there are no light vertices.
+    bool disperses() const { return disperses_; }
     bool gains_much() const { return pays() && (used_ || pilot_->figures->cost() < 0.5); }
     // The tables for a sample of this index at full resolution. Requires a decision except for index 0. Valid as long as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
@@ -72,6 +74,7 @@ private:
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides
     std::optional<bool> used_, uses_vertices_, shares_;
+    bool disperses_ = false;
     CausticCasterTables casters_;
     std::optional<ManifoldPilot> pilot_;
 };

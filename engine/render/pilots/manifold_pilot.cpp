@@ -122,8 +122,8 @@ LightVertexTables ManifoldPilot::light_vertices() const {
 }
 
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,
-                                               const CausticCasterTables& casters, std::optional<bool> shares, const Kernel& kernel,
-                                               const Kernel& without, const Workers& workers,
+                                               const CausticCasterTables& casters, std::optional<bool> shares, bool disperses,
+                                               const Kernel& kernel, const Kernel& without, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, wanted);
     if (!seeds) return std::nullopt;
@@ -137,7 +137,7 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     SceneTables tables = tables_without;
     tables.manifolds = pilot.seeds.tables(casters);
     // Light vertices are not connected through panes, and have the index of refraction of all wavelengths.
-    if (!tables.panes && !kernel.features.has(Feature::dispersion))
+    if (!tables.panes && !disperses)
         pilot.emission =
             LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
     context.settings.reuse = {};

@@ -33,11 +33,11 @@ struct ManifoldPilot {
 
 // Renders tiles of the image at a low resolution with manifold sampling. The variance that the same light has without is known from its
 // solutions, though no path may have found it: light f of probability density p there has the second moment of f^2 / p. `kernel`: with
-// Feature::light_paths; `without`: that of the image as decided before; `shares` overrides ManifoldPilot::shares. Arguments and the result
-// otherwise as learn_path_guiding().
+// Feature::light_paths; `without`: that of the image as decided before; `shares` overrides ManifoldPilot::shares. `disperses`: a solid of
+// the scene does. Arguments and the result otherwise as learn_path_guiding().
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,
-                                               const CausticCasterTables& casters, std::optional<bool> shares, const Kernel& kernel,
-                                               const Kernel& without, const Workers& workers,
+                                               const CausticCasterTables& casters, std::optional<bool> shares, bool disperses,
+                                               const Kernel& kernel, const Kernel& without, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush
