@@ -50,7 +50,7 @@ View looking(const Vec3& from, const Vec3& to, float yfov_radians);
 // Orthographic, straight down on [-half, half]^2 from height `y`: to the right is +X, down the image is +Z.
 View looking_down(float half, float y);
 
-// A floor of reflectance 0.01 in a parallel sun of pi lux at 45 degrees from -x, of radiance 0.01, which the camera sees in a mirror,
+// A floor of reflectance 0.01 that gets pi lux from a parallel sun at 45 degrees, from -x: radiance 0.01. The camera sees it in a mirror,
 // around x = -1.1. Glass beside it sends more light there, of which hardly any comes back to the glass.
 Scene sunlit_floor_in_a_mirror();
 

@@ -59,7 +59,8 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     const double choice = std::log(sums.relative_high / relative.squares);
     const double relative_width =
         log_interval(sharing * log_variance(sums, relative) + inequality + square_of(darkest_bias_sigma * choice));
-    e.known = is_seen(sums.met) && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
+    e.known =
+        is_seen(sums.brightest_emission) && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
     e.relmse = relative.squares / values * std::exp(darkest_bias * choice);
     e.low = e.relmse * std::exp(-relative_width);
     e.high = e.relmse * std::exp(relative_width);

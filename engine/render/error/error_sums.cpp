@@ -66,7 +66,7 @@ struct RowSums {
         }
     };
     Weighted absolute, relative;
-    Wide relative_high{}, unequal{}, brightest{}, met{}, largest{}, pixels{}, pairs{};
+    Wide relative_high{}, unequal{}, brightest{}, brightest_emission{}, largest{}, pixels{}, pairs{};
 };
 
 class BandSummer {
@@ -138,7 +138,7 @@ private:
         const float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
         const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
         const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
-        const float* const one_meeting = row.one_meeting.pixels();
+        const float* const one_emission_sample = row.one_emission_sample.pixels();
         for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide square = load<Wide>(squares + x);
             sums.absolute.add(square, load<Wide>(products + x));
@@ -146,7 +146,7 @@ private:
             sums.relative_high += load<Wide>(high + x);
             sums.unequal += abs(2 * load<Wide>(from_weight_a + x) - 1) * square;
             sums.brightest = max(sums.brightest, load<Wide>(dark + x) * squared(load<Wide>(one_sample + x)));
-            sums.met = max(sums.met, load<Wide>(dark + x) * squared(load<Wide>(one_meeting + x)));
+            sums.brightest_emission = max(sums.brightest_emission, load<Wide>(dark + x) * squared(load<Wide>(one_emission_sample + x)));
             sums.pixels += load<Wide>(known + x);
         }
     }
@@ -229,7 +229,7 @@ private:
         s.relative_high = total(row.relative_high) * divisor_.factor;
         s.unequal = total(row.unequal) * square;
         s.brightest = largest_of(row.brightest) * square;
-        s.met = largest_of(row.met) * square;
+        s.brightest_emission = largest_of(row.brightest_emission) * square;
         s.largest = largest_of(row.largest) / scale_;
         sums_.merge(s);
     }
@@ -264,7 +264,7 @@ void ErrorSums::merge(const ErrorSums& o) {
     relative_high += o.relative_high;
     unequal += o.unequal;
     brightest = std::max(brightest, o.brightest);
-    met = std::max(met, o.met);
+    brightest_emission = std::max(brightest_emission, o.brightest_emission);
     largest = std::max(largest, o.largest);
 }
 

@@ -16,11 +16,11 @@ struct ErrorSums {
     };
     int64_t pixels = 0, pairs = 0; // pixels whose halves both hold samples; pairs of neighbours among them
     Weighted absolute, relative;
-    double relative_high = 0; // squares divided by the darkest neighbourhood
-    double unequal = 0;       // squares, each times the relative difference of the weights of the two halves
-    double brightest = 0;     // lower bound of the square that one sample of the brightest pixel contributes
-    double met = 0;           // the same of one of its samples of the emission, where it and those around it take more of these
-    double largest = 0;       // largest value of the image, of any channel
+    double relative_high = 0;      // squares divided by the darkest neighbourhood
+    double unequal = 0;            // squares, each times the relative difference of the weights of the two halves
+    double brightest = 0;          // lower bound of the square that one sample of the brightest pixel contributes
+    double brightest_emission = 0; // the same of one of its samples of the emission, where it and those around it take more of these
+    double largest = 0;            // largest value of the image, of any channel
 
     // Adds the sums of the rows below.
     void merge(const ErrorSums& other);

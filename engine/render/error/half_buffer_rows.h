@@ -43,12 +43,13 @@ struct HalfBufferRow {
     PixelRow weight_a;     // weight of a in the image
     PixelRow known;        // 1 where both halves hold samples; elsewhere 0, and a and b are the image's value
     PixelRow one_sample;   // where known, 1 / (number of samples of both); elsewhere 0
-    PixelRow one_meeting;  // share of the pixel's mean of one sample of a lamp that the camera sees: less where it takes more of them
+    // Share of the pixel's mean of one sample of a lamp that the camera sees: less where it takes more of them.
+    PixelRow one_emission_sample;
 
     HalfBufferRow() = default;
     explicit HalfBufferRow(int width)
         : a{PixelRow(width), PixelRow(width), PixelRow(width)}, b(a), own(a), weight_a(width), known(width), one_sample(width),
-          one_meeting(width) {}
+          one_emission_sample(width) {}
 };
 
 // An image that is read row by row; load(y, scale, row) gives the values of row y times `scale`.

@@ -194,7 +194,7 @@ void Film::load_half_buffers(int y, float scale, const EdgePixels* edges, HalfBu
         row.weight_a[x] = n.weight_a;
         row.known[x] = n.known ? 1.f : 0.f;
         row.one_sample[x] = n.one_sample;
-        row.one_meeting[x] = edges ? n.one_sample / float(edges->fewest_near(x, y)) : n.one_sample;
+        row.one_emission_sample[x] = edges ? n.one_sample / float(edges->fewest_near(x, y)) : n.one_sample;
     }
 }
 

@@ -40,7 +40,7 @@ struct Halves {
                         }
                         row.weight_a[x] = 0.5f;
                         row.known[x] = known(x, y) ? 1.f : 0.f;
-                        row.one_sample[x] = row.one_meeting[x] = known(x, y) ? 0.25f : 0.f;
+                        row.one_sample[x] = row.one_emission_sample[x] = known(x, y) ? 0.25f : 0.f;
                     }
                 }};
     }
@@ -123,7 +123,7 @@ HalfBufferImage firefly(float around, float pixel, float in_firefly, float sampl
                     }
                     row.weight_a[x] = 0.5f;
                     row.known[x] = 1;
-                    row.one_sample[x] = row.one_meeting[x] = 1 / samples;
+                    row.one_sample[x] = row.one_emission_sample[x] = 1 / samples;
                 }
             }};
 }
@@ -193,7 +193,7 @@ TEST(ErrorEstimate, IsKnownWherePixelsTakeManySamplesOfTheirLamp) {
         const HalfBufferImage image{side, side, [&](int y, float scale, HalfBufferRow& row) {
                                         noise.rows().load(y, scale, row);
                                         for (int x = 0; x < side; ++x) {
-                                            row.one_meeting[x] = row.one_sample[x] / float(edges.fewest_near(x, y));
+                                            row.one_emission_sample[x] = row.one_sample[x] / float(edges.fewest_near(x, y));
                                             if (x < 16 || x > 18 || y < 16 || y > 18) continue;
                                             for (size_t c = 0; c < 3; ++c)
                                                 for (ChannelRows* of : {&row.a, &row.b, &row.own}) (*of)[c][x] += 1000 * scale;

@@ -78,8 +78,7 @@ template <class F> struct SpecularEvent {
     Int<F> part;
 };
 // The event at the hit of ray.direction; advances `ray` to behind it. `refracts`: which event; the lanes of `chooses` take it by chance
-// with the random number `u`. `wavelength`: the ray's, a step of the visible
-// spectrum. In the lanes of `active`, whose hit is a surface.
+// with the random number `u`. `wavelength`: the ray's, a step of the visible spectrum. In the lanes of `active`, whose hit is a surface.
 template <Features S, class F>
 [[gnu::noinline, gnu::flatten]] SpecularEvent<F> specular_event(const SceneTables& scene, const EstimatorSettings& settings,
                                                                 const Hit<F>& hit, Mask<F> refracts, const Mask<F>& chooses, const F& u,
