@@ -16,6 +16,10 @@ constexpr double max_brightest_share = 0.3;   // of the squared error, for one s
 // Bias correction and its standard deviation, as fractions of the logarithm of (relmse with the darkest neighbourhood / relmse
 // with the default one).
 constexpr double darkest_bias = 0.15, darkest_bias_sigma = 0.25;
+// Standard deviation of the logarithm of (relmse / relmse where outliers' pixels are as bright as their other halves), as a fraction of it.
+constexpr double brighter_sigma = 0.35;
+constexpr double max_brightness = 7;  // of the other halves of outliers, relative to the mean around them
+constexpr double outlier_sigma = 0.7; // standard deviation of what each outlier loses by a brighter divisor, relative to its loss
 // The half with one sample more has less variance than its share if points are well distributed. One standard deviation of this
 // effect, per difference of the halves' weights. At most 1, for points whose variance falls with the square of their number.
 constexpr double share_of_inequality = 0.6;
@@ -29,6 +33,15 @@ double log_variance(const ErrorSums& all, const ErrorSums::Weighted& sums) {
     const double neighbours = all.pairs > 0 ? sums.neighbour_products * double(all.pixels) / double(all.pairs) : 0;
     const auto [less, more] = std::minmax(neighbours, sums.own_products);
     return (more + less / 2) / square_of(sums.squares);
+}
+
+// Logarithm of (relmse / relmse with outliers' pixels as bright as their other halves): the squares are known for `brighter` times the
+// divisor's value, and taken to follow a power of it.
+double log_brighter_ratio(const ErrorSums& sums) {
+    const ErrorSums::Outliers& o = sums.outliers;
+    if (!(o.other_half > o.around) || !(o.loss > 0)) return 0;
+    const double brightness = std::min(o.other_half / o.around, max_brightness);
+    return -std::log1p(-o.loss / sums.relative.squares) / std::log(double(brighter)) * std::log(brightness);
 }
 
 // True if enough pixels carry the error for a meaningful interval.
@@ -57,11 +70,13 @@ ErrorEstimate estimate_error(const ErrorSums& sums, double sharing) {
     e.rmse_high = e.rmse * std::exp(absolute_width / 2);
 
     const double choice = std::log(sums.relative_high / relative.squares);
-    const double relative_width =
-        log_interval(sharing * log_variance(sums, relative) + inequality + square_of(darkest_bias_sigma * choice));
+    const double brighter_ratio = log_brighter_ratio(sums);
+    const double divisor_variance = square_of(darkest_bias_sigma * choice) + square_of(brighter_sigma * brighter_ratio) +
+                                    square_of(outlier_sigma / relative.squares) * sums.outliers.loss_squares;
+    const double relative_width = log_interval(sharing * log_variance(sums, relative) + inequality + divisor_variance);
     e.known =
         is_seen(sums.brightest_emission) && has_enough_degrees_of_freedom(relative) && 2 * relative_width <= std::log(max_interval_ratio);
-    e.relmse = relative.squares / values * std::exp(darkest_bias * choice);
+    e.relmse = relative.squares / values * std::exp(darkest_bias * choice - brighter_ratio);
     e.low = e.relmse * std::exp(-relative_width);
     e.high = e.relmse * std::exp(relative_width);
     return e;

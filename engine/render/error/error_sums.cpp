@@ -20,6 +20,9 @@ constexpr float min_samples = 16;
 // The divisor of relmse is that of the half without the firefly, but not smaller than this share of the neighbourhood's value: at
 // the edge of a lamp the darker half may have missed the lamp.
 constexpr float least_share = 1.f / 3;
+// At the straight edge of a lamp, two of the eight other pixels of the darkest block are within it; of pixels further inside, three or
+// more.
+constexpr float edge_share = 0.3f;
 
 double total(const Wide& v) { return double(v[0] + v[1]) + double(v[2] + v[3]); }
 double largest_of(const Wide& v) { return double(std::max(std::max(v[0], v[1]), std::max(v[2], v[3]))); }
@@ -39,6 +42,16 @@ struct Divisor {
     Wide weight(const Wide& value) const { return 1 / (squared(value) * of_square + constant); }
 };
 
+// A pixel's value as the divisor of relmse takes it.
+struct Shrunk {
+    Wide near;        // the neighbourhood mean
+    Wide kept;        // share of the pixel's deviation from it that is more than noise (James and Stein 1961)
+    Wide value;       // near + (pixel - near) * kept
+    WideMask firefly; // where the half without the firefly stands for the pixel
+    // The same with `brighter` times the neighbourhood mean.
+    Wide brighter_value() const { return select(firefly, value * brighter, value + (brighter - 1) * near * (1 - kept)); }
+};
+
 // Half differences of a row: absolute, and divided by the divisor of relmse.
 struct Differences {
     ChannelRows absolute, relative;
@@ -48,10 +61,12 @@ struct Differences {
 
 // Sums over channels for each pixel of a row.
 struct PixelSums {
-    PixelRow squares, relative, products, relative_products, high, dark;
-    explicit PixelSums(int width) : squares(width), relative(width), products(width), relative_products(width), high(width), dark(width) {}
+    PixelRow squares, relative, products, relative_products, high, dark, dark_at_edges, loss;
+    explicit PixelSums(int width)
+        : squares(width), relative(width), products(width), relative_products(width), high(width), dark(width), dark_at_edges(width),
+          loss(width) {}
     void clear() {
-        for (PixelRow* row : {&squares, &relative, &products, &relative_products, &high, &dark}) row->clear();
+        for (PixelRow* row : {&squares, &relative, &products, &relative_products, &high, &dark, &dark_at_edges, &loss}) row->clear();
     }
 };
 
@@ -66,6 +81,7 @@ struct RowSums {
         }
     };
     Weighted absolute, relative;
+    Wide loss{}, loss_squares{}, other_half{}, around{}; // of outliers
     Wide relative_high{}, unequal{}, brightest{}, brightest_emission{}, largest{}, pixels{}, pairs{};
 };
 
@@ -136,7 +152,8 @@ private:
         }
         const float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
         const float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
-        const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
+        const float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels(), *const losses = pixels_.loss.pixels();
+        const float* const dark_at_edges = pixels_.dark_at_edges.pixels();
         const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
         const float* const one_emission_sample = row.one_emission_sample.pixels();
         for (int x = 0; x < image_.width; x += PixelRow::step) {
@@ -146,37 +163,37 @@ private:
             sums.relative_high += load<Wide>(high + x);
             sums.unequal += abs(2 * load<Wide>(from_weight_a + x) - 1) * square;
             sums.brightest = max(sums.brightest, load<Wide>(dark + x) * squared(load<Wide>(one_sample + x)));
-            sums.brightest_emission = max(sums.brightest_emission, load<Wide>(dark + x) * squared(load<Wide>(one_emission_sample + x)));
+            sums.brightest_emission =
+                max(sums.brightest_emission, load<Wide>(dark_at_edges + x) * squared(load<Wide>(one_emission_sample + x)));
             sums.pixels += load<Wide>(known + x);
+            const Wide loss = load<Wide>(losses + x);
+            sums.loss += loss;
+            sums.loss_squares += squared(loss);
         }
     }
 
     void add_channel(const HalfBufferRow& row, const PixelRow& row_squares, size_t c, RowSums& sums) {
         const float *const from_a = row.a[c].pixels(), *const from_b = row.b[c].pixels(), *const from_own = row.own[c].pixels();
         const float *const from_squares = row_squares.pixels(), *const noises = noise_around_.mean.pixels();
-        const float* const one_sample = row.one_sample.pixels();
+        const float *const one_sample = row.one_sample.pixels(), *const known = row.known.pixels();
         const float *const roots = root_.pixels(), *const means = around_.mean.pixels(), *const darkest = around_.darkest.pixels();
         float *const to_absolute = now_.absolute[c].pixels(), *const to_relative = now_.relative[c].pixels();
         float *const squares = pixels_.squares.pixels(), *const relative = pixels_.relative.pixels();
         float *const products = pixels_.products.pixels(), *const relative_products = pixels_.relative_products.pixels();
-        float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels();
+        float *const high = pixels_.high.pixels(), *const dark = pixels_.dark.pixels(), *const loss = pixels_.loss.pixels();
+        float* const dark_at_edges = pixels_.dark_at_edges.pixels();
         const auto add = [](float* to, const Wide& v) { store(to, load<Wide>(to) + v); };
         const Divisor divisor = divisor_;
         Wide largest = sums.largest;
         for (int x = 0; x < image_.width; x += PixelRow::step) {
             const Wide a = load<Wide>(from_a + x), b = load<Wide>(from_b + x), own = load<Wide>(from_own + x), mean = load<Wide>(means + x);
             const Wide root = load<Wide>(roots + x), difference = (a - b) * root, square = load<Wide>(from_squares + x);
-            // `usual`: value in the divisor of relmse, by James-Stein shrinkage (1961) of the pixel or, if one half has a firefly, of
-            // the other half; `least`: its lower bound.
-            const Wide near = mean + (own - mean) * own_share, noise = load<Wide>(noises + x), darker = min(a, b);
-            const auto shrunk = [&](const Wide& value, const Wide& variance) {
-                return near + (value - near) * max(Wide(0.f), 1 - 2 * variance / max(squared(value - near), Wide(1e-36f)));
-            };
-            const Wide of_pixel = shrunk(own, square), of_half = min(of_pixel, max(shrunk(darker, noise), of_pixel * least_share));
+            // `usual`: value in the divisor of relmse; `least`: its lower bound.
+            const Wide noise = load<Wide>(noises + x), darker = min(a, b);
             const WideMask firefly = (square > firefly_ratio * noise) & (load<Wide>(one_sample + x) <= 1 / min_samples);
-            const Wide usual = select(firefly, of_half, of_pixel);
-            const Wide least = min(usual, max(min(own, load<Wide>(darkest + x)), darker));
-            const Wide weight = divisor.weight(usual), ab = 4 * squared(root) * (a - mean) * (b - mean);
+            const Shrunk usual = shrink(own, darker, mean, square, noise, firefly);
+            const Wide least = min(usual.value, max(min(own, load<Wide>(darkest + x)), darker));
+            const Wide weight = divisor.weight(usual.value), ab = 4 * squared(root) * (a - mean) * (b - mean);
             store(to_absolute + x, difference);
             store(to_relative + x, difference * sqrt(weight));
             add(squares + x, square);
@@ -185,9 +202,37 @@ private:
             add(relative_products + x, ab * weight);
             add(high + x, square * divisor.weight(least));
             add(dark + x, squared(darker));
+            add(dark_at_edges + x, select(load<Wide>(darkest + x) < own * edge_share, squared(darker), Wide(0.f)));
             largest = max(largest, own);
+            const Wide threshold = select(load<Wide>(known + x) > 0, outlier_ratio * mean, max(a, b));
+            const WideMask is_outlier = max(a, b) > threshold;
+            if (!any(is_outlier)) continue;
+            add(loss + x, select(is_outlier, square * (weight - divisor.weight(usual.brighter_value())), Wide(0.f)));
+            add_outlier(a, b, mean, a > threshold, sums);
+            add_outlier(b, a, mean, b > threshold, sums);
         }
         sums.largest = largest;
+    }
+
+    // The pixel's value by James-Stein shrinkage (1961), or, if one half has a firefly, that of the darker half in the same way.
+    static Shrunk shrink(const Wide& own, const Wide& darker, const Wide& mean, const Wide& variance, const Wide& noise,
+                         const WideMask& firefly) {
+        const Wide near = mean + (own - mean) * own_share;
+        const auto kept = [&](const Wide& value, const Wide& v) {
+            return max(Wide(0.f), 1 - 2 * v / max(squared(value - near), Wide(1e-36f)));
+        };
+        const Wide of_pixel = kept(own, variance), value = near + (own - near) * of_pixel;
+        const Wide of_half = min(value, max(near + (darker - near) * kept(darker, noise), value * least_share));
+        return {near, of_pixel, select(firefly, of_half, value), firefly};
+    }
+
+    // If this half of a pixel is an outlier: how bright is the other half? Weighted as relmse does, with the mean around as divisor, by 1
+    // at most, so that no firefly decides alone.
+    void add_outlier(const Wide& half, const Wide& other, const Wide& mean, const WideMask& is_outlier, RowSums& sums) const {
+        const Wide divided = divisor_.weight(mean), weight = min(Wide(1.f), squared(half - mean) * divided * float(divisor_.factor));
+        const Wide counted = select(is_outlier, weight * mean * divided, Wide(0.f));
+        sums.other_half += counted * min(other, half);
+        sums.around += counted * mean;
     }
 
     void add_neighbours(RowSums& sums, bool has_above) const {
@@ -227,6 +272,8 @@ private:
         add(s.absolute, row.absolute, square, fourth);
         add(s.relative, row.relative, divisor_.factor, divisor_.factor * divisor_.factor);
         s.relative_high = total(row.relative_high) * divisor_.factor;
+        s.outliers = {total(row.loss) * divisor_.factor, total(row.loss_squares) * divisor_.factor * divisor_.factor,
+                      total(row.other_half) * divisor_.factor, total(row.around) * divisor_.factor};
         s.unequal = total(row.unequal) * square;
         s.brightest = largest_of(row.brightest) * square;
         s.brightest_emission = largest_of(row.brightest_emission) * square;
@@ -262,6 +309,10 @@ void ErrorSums::merge(const ErrorSums& o) {
     add(absolute, o.absolute);
     add(relative, o.relative);
     relative_high += o.relative_high;
+    outliers.loss += o.outliers.loss;
+    outliers.loss_squares += o.outliers.loss_squares;
+    outliers.other_half += o.outliers.other_half;
+    outliers.around += o.outliers.around;
     unequal += o.unequal;
     brightest = std::max(brightest, o.brightest);
     brightest_emission = std::max(brightest_emission, o.brightest_emission);

@@ -16,7 +16,15 @@ struct ErrorSums {
     };
     int64_t pixels = 0, pairs = 0; // pixels whose halves both hold samples; pairs of neighbours among them
     Weighted absolute, relative;
-    double relative_high = 0;      // squares divided by the darkest neighbourhood
+    double relative_high = 0; // squares divided by the darkest neighbourhood
+    // Of outliers: pixels of which one half is more than `outlier_ratio` times the mean around them.
+    struct Outliers {
+        double loss = 0, loss_squares = 0; // what they add less to relative.squares by `brighter` times the divisor's value; its squares
+        double other_half = 0,
+               around = 0; // weighted sums of the half that is no outlier (at most the outlier's value), and of the mean around
+        bool operator==(const Outliers&) const = default;
+    };
+    Outliers outliers;
     double unequal = 0;            // squares, each times the relative difference of the weights of the two halves
     double brightest = 0;          // lower bound of the square that one sample of the brightest pixel contributes
     double brightest_emission = 0; // the same of one of its samples of the emission, where it and those around it take more of these
@@ -25,6 +33,8 @@ struct ErrorSums {
     // Adds the sums of the rows below.
     void merge(const ErrorSums& other);
 };
+
+inline constexpr float outlier_ratio = 3, brighter = 3;
 
 // Variance of the product of two normal errors whose half difference has this square.
 template <class T> T normal_product(const T& square) { return square * square * (4.f / 3); }

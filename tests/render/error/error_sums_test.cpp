@@ -146,6 +146,24 @@ TEST(ErrorSums, DivideFirefliesByTheOtherHalf) {
     EXPECT_NEAR(relative(1, 0.995f, 1.005f, 64), 3 * 2.5e-5, 2e-5); // no firefly
 }
 
+// The half without the firefly tells how bright an outlier's pixel is, relative to the mean around it; pixels with samples in one half tell
+// nothing.
+TEST(ErrorSums, CompareTheOtherHalvesOfOutliersWithTheMeanAround) {
+    const auto outliers = [](float pixel, float in_firefly) { return sum_errors(firefly(1, pixel, in_firefly, 64), 0, 9).outliers; };
+    for (const float pixel : {0.5f, 1.f, 2.f}) {
+        const ErrorSums::Outliers o = outliers(pixel, 4);
+        EXPECT_NEAR(o.other_half / o.around, pixel, 0.01) << pixel;
+        EXPECT_GT(o.loss, 0) << pixel;
+    }
+    for (const ErrorSums::Outliers& none : {outliers(0.9f, 1.1f), outliers(2, 2.5f)})
+        EXPECT_EQ(none, ErrorSums::Outliers()); // below the ratio
+    const HalfBufferImage unknown{9, 9, [](int y, float scale, HalfBufferRow& row) {
+                                      firefly(1, 4, 4, 64).load(y, scale, row);
+                                      if (y == 4) row.known[4] = 0;
+                                  }};
+    EXPECT_EQ(sum_errors(unknown, 0, 9).outliers, ErrorSums::Outliers());
+}
+
 TEST(ErrorSums, OfBandsAddUpToThoseOfTheImage) {
     const Halves halves(37, 50);
     const ErrorSums whole = sum_errors(halves.rows(), 0, 50);
@@ -160,6 +178,11 @@ TEST(ErrorSums, OfBandsAddUpToThoseOfTheImage) {
     near(bands.relative.squares, whole.relative.squares);
     near(bands.relative.neighbour_products, whole.relative.neighbour_products);
     near(bands.relative_high, whole.relative_high);
+    ASSERT_GT(whole.outliers.around, 0);
+    near(bands.outliers.loss, whole.outliers.loss);
+    near(bands.outliers.loss_squares, whole.outliers.loss_squares);
+    near(bands.outliers.other_half, whole.outliers.other_half);
+    near(bands.outliers.around, whole.outliers.around);
 }
 
 // Fourth powers of values from 1e-30 to 1e30 overflow floats, but the estimate must scale with the image; relMSE where its 0.01
@@ -181,32 +204,121 @@ TEST(ErrorSums, ScaleBeyondSinglePrecision) {
     }
 }
 
-// A lamp of radiance 1000 in nine pixels of a noisy image of 32 x 32. With four samples a pixel, one more of the lamp adds 250; where the
-// pixels at the lamp and those around them take 64 samples of the emission for each, 4.
-TEST(ErrorEstimate, IsKnownWherePixelsTakeManySamplesOfTheirLamp) {
+// A square lamp of radiance 1000 in a noisy image of 32 x 32, with four samples a pixel; from `within` pixels inside its edge to `beyond`
+// pixels outside it, 64 samples of the emission for each.
+ErrorEstimate estimate_with_lamp(int lamp, int within, int beyond) {
     constexpr int side = 32;
     const Halves noise(side, side, 0.5);
-    const auto estimate = [&](int reach) { // of the pixels with more samples, beyond the lamp
-        EdgePixels edges(side, side);
-        for (int y = 16 - reach; y < 19 + reach; ++y)
-            for (int x = 16 - reach; x < 19 + reach; ++x) edges.add(x, y, highlight_samples);
-        const HalfBufferImage image{side, side, [&](int y, float scale, HalfBufferRow& row) {
-                                        noise.rows().load(y, scale, row);
-                                        for (int x = 0; x < side; ++x) {
-                                            row.one_emission_sample[x] = row.one_sample[x] / float(edges.fewest_near(x, y));
-                                            if (x < 16 || x > 18 || y < 16 || y > 18) continue;
-                                            for (size_t c = 0; c < 3; ++c)
-                                                for (ChannelRows* of : {&row.a, &row.b, &row.own}) (*of)[c][x] += 1000 * scale;
-                                        }
-                                    }};
-        return estimate_error(sum_errors(image, 0, side));
-    };
-    const ErrorEstimate around = estimate(1), within = estimate(0);
+    const int low = (side - lamp) / 2, high = low + lamp;
+    const auto inside = [&](int x, int y, int margin) { return std::min(x, y) >= low - margin && std::max(x, y) < high + margin; };
+    EdgePixels edges(side, side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            if (inside(x, y, beyond) && !inside(x, y, -within)) edges.add(x, y, highlight_samples);
+    const HalfBufferImage image{side, side, [&](int y, float scale, HalfBufferRow& row) {
+                                    noise.rows().load(y, scale, row);
+                                    for (int x = 0; x < side; ++x) {
+                                        row.one_emission_sample[x] = row.one_sample[x] / float(edges.fewest_near(x, y));
+                                        if (!inside(x, y, 0)) continue;
+                                        for (size_t c = 0; c < 3; ++c)
+                                            for (ChannelRows* of : {&row.a, &row.b, &row.own}) (*of)[c][x] += 1000 * scale;
+                                    }
+                                }};
+    return estimate_error(sum_errors(image, 0, side));
+}
+
+// One more sample of the lamp adds 250; where the pixels at the lamp and those around them take 64 samples of the emission for each, 4.
+TEST(ErrorEstimate, IsKnownWherePixelsTakeManySamplesOfTheirLamp) {
+    const ErrorEstimate around = estimate_with_lamp(3, 3, 1), within = estimate_with_lamp(3, 3, 0);
     EXPECT_TRUE(around.known);
     EXPECT_FALSE(around.rmse_known); // the halves of the lamp may agree by chance
     // The lamp may reach into a pixel beside it that takes one sample.
     EXPECT_FALSE(within.known || within.rmse_known);
     EXPECT_EQ(around.relmse, within.relmse);
+}
+
+// Pixels within a lamp, of which all samples meet it, need no more of them.
+TEST(ErrorEstimate, IsKnownIfPixelsAtTheEdgesOfALampTakeManySamplesOfIt) {
+    EXPECT_TRUE(estimate_with_lamp(10, 2, 1).known);
+    EXPECT_FALSE(estimate_with_lamp(10, 0, 0).known);
+    EXPECT_FALSE(estimate_with_lamp(10, 0, 1).known); // the edge may be within the lamp's pixels
+}
+
+// Rare light, as caustics are found by paths that hardly ever meet a lamp: with it the pixels of every eighth column are four times as
+// bright as the others, or all pixels have the same share of it. 32 samples a half.
+class RareLight {
+public:
+    enum class Where { in_lines, everywhere };
+    static constexpr int side = 96;
+    static constexpr double around = 0.1;
+
+    RareLight(Where where, uint32_t seed) : where_(where) {
+        std::mt19937 bits(seed);
+        std::exponential_distribution<double> value(1);
+        std::normal_distribution<double> noise(0, 0.01);
+        for (int i = 0; i < side * side; ++i)
+            for (auto& half : halves_) {
+                const double rare = truth(i) - around, mean_value = 10; // of one sample
+                std::poisson_distribution<int> count(samples * rare / mean_value);
+                double sum = 0;
+                for (int n = count(bits); n > 0; --n) sum += mean_value * value(bits);
+                half.push_back(float(around + noise(bits) + sum / samples));
+            }
+    }
+    ErrorEstimate estimate() const {
+        const HalfBufferImage image{side, side, [&](int y, float scale, HalfBufferRow& row) {
+                                        for (int x = 0; x < side; ++x) {
+                                            const size_t i = size_t(y * side + x);
+                                            for (size_t c = 0; c < 3; ++c) {
+                                                row.a[c][x] = scale * halves_[0][i];
+                                                row.b[c][x] = scale * halves_[1][i];
+                                                row.own[c][x] = (row.a[c][x] + row.b[c][x]) / 2;
+                                            }
+                                            row.weight_a[x] = 0.5f;
+                                            row.known[x] = 1;
+                                            row.one_sample[x] = row.one_emission_sample[x] = 0.5f / samples;
+                                        }
+                                    }};
+        return estimate_error(sum_errors(image, 0, side));
+    }
+    double relmse() const {
+        double sum = 0;
+        for (size_t i = 0; i < halves_[0].size(); ++i) {
+            const double t = truth(int(i)), error = (double(halves_[0][i]) + double(halves_[1][i])) / 2 - t;
+            sum += error * error / (t * t + 0.01);
+        }
+        return sum / double(halves_[0].size());
+    }
+
+private:
+    static constexpr int samples = 32;
+    double truth(int pixel) const {
+        const bool line = where_ == Where::everywhere || pixel % side % 8 == 4;
+        return line ? where_ == Where::everywhere ? around + 0.15 : 4 * around : around;
+    }
+
+    Where where_;
+    std::vector<float> halves_[2];
+};
+
+// Lines that are narrower than the neighbourhood are brighter than the mean around them; pixels with rare fireflies need not be. The other
+// halves of outliers tell which.
+TEST(ErrorEstimate, IntervalsHoldForRareLightInLinesAndEverywhere) {
+    for (const auto where : {RareLight::Where::in_lines, RareLight::Where::everywhere}) {
+        int known = 0, covered = 0;
+        constexpr int runs = 100;
+        for (uint32_t seed = 0; seed < runs; ++seed) {
+            const RareLight image(where, seed);
+            const ErrorEstimate e = image.estimate();
+            if (!e.known) continue;
+            ++known;
+            covered += e.low <= image.relmse() && image.relmse() <= e.high;
+        }
+        EXPECT_GT(known, runs / 2);
+        // 95 %, less three standard errors of their binomial distribution.
+        EXPECT_GE(covered, 0.95 * known - 3 * std::sqrt(0.95 * 0.05 * known))
+            << (where == RareLight::Where::in_lines ? "lines" : "everywhere");
+    }
 }
 
 // 16 times the variance is 4 times the width, on a logarithmic scale; the uncertainty of relmse's divisor is separate.
