@@ -17,11 +17,10 @@ struct ErrorSums {
     int64_t pixels = 0, pairs = 0; // pixels whose halves both hold samples; pairs of neighbours among them
     Weighted absolute, relative;
     double relative_high = 0; // squares divided by the darkest neighbourhood
-    // Of outliers: pixels of which one half is more than `outlier_ratio` times the mean around them.
+    // Over outliers: halves of pixels that are more than `outlier_ratio` times the mean around them.
     struct Outliers {
-        double loss = 0, loss_squares = 0; // what they add less to relative.squares by `brighter` times the divisor's value; its squares
-        double other_half = 0,
-               around = 0; // weighted sums of the half that is no outlier (at most the outlier's value), and of the mean around
+        double loss = 0, loss_squares = 0; // what relative.squares lose where the divisor's value is `brighter` times; squares, by pixel
+        double other_half = 0, around = 0; // weighted sums: of the other half, at most the outlier; of the mean around
         bool operator==(const Outliers&) const = default;
     };
     Outliers outliers;

@@ -1,6 +1,7 @@
 #include "render/pilots/learned_sampling.h"
 
 #include "render/compile/render_scene.h"
+#include "render/pilots/edges/edge_choice.h"
 #include "render/pilots/guiding_pilot.h"
 #include "render/pilots/light_path_pilot.h"
 #include "render/pilots/portal_pilot.h"
@@ -23,7 +24,9 @@ LearnedSampling::LearnedSampling(const RenderSettings& settings, const RenderSce
                                  const CausticOptions& options)
     : visibility_(settings, scene), portals_(settings, scene), guiding_(settings, scene),
       light_paths_(settings, scene, film, options.light_path_share), manifolds_(settings, scene, film, options), reuse_(settings, scene),
-      adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {}
+      adjoint_(settings), scene_sphere_(scene.bounding_sphere()), origin_(scene.origin()) {
+    if (const EdgeChoice edges(settings, scene, film.transparent); edges.needs_pilot()) refined_chain_ = edges.longest_chain();
+}
 
 void LearnedSampling::keep_learned(LearnedSampling before, const FieldEffect& effect, const Vec3d& origin) {
     const bool decided = !before.needs_pilot(2), with_manifolds = before.manifolds_.pays();
@@ -70,7 +73,9 @@ bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kerne
         return field;
     };
     const auto measure_paths = [&](const KernelContext& with, const Kernel& own, auto&&... others) {
-        return measure_light_paths(with, scene_sphere_, kernel_like(own, own.features.with(Feature::light_paths)), others...);
+        std::optional<RefinedEmission> refined;
+        if (refined_chain_) refined.emplace(RefinedEmission{own, *refined_chain_});
+        return measure_light_paths(with, scene_sphere_, kernel_like(own, own.features.with(Feature::light_paths)), refined, others...);
     };
     const auto measure_chains = [&](const KernelContext& with, const Kernel& own, auto&&... others) -> std::optional<ManifoldPilot> {
         const Kernel& chains = kernel_like(own, own.features.with(Feature::light_paths));

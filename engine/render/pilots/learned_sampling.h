@@ -122,6 +122,7 @@ private:
     ReuseChoice reuse_;
     AdjointChoice adjoint_;
     CasterSphere scene_sphere_{};
+    std::optional<int> refined_chain_; // delta lobes before the emission that smooth edges refine; empty: there are none
     Vec3d origin_{0, 0, 0};
     std::optional<KeptField> kept_;
     struct KeptSeeds {

@@ -1,5 +1,6 @@
 #include "render/pilots/light_path_pilot.h"
 
+#include "render/film/edge_samples.h"
 #include "render/pilots/pilot_tiles.h"
 #include "render/pilots/variant_comparison.h"
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace blush {
@@ -61,15 +63,25 @@ void add_alone_tile(const LightPathColumns& columns, double paths, Measured& m) 
             m.alone[size_t(moment.pixel)] += squared * paths / emitted;
 }
 
-void add_camera_tile(const TileJob& tile, const VariantTile& v, Measured& m) {
+// `refined`: what smooth edges replace in `v`; may be empty.
+void add_camera_tile(const TileJob& tile, const VariantTile& v, const VariantTile& refined, Measured& m) {
     for (int y = 0; y < tile.height; ++y)
         for (int x = 0; x < tile.width; ++x) {
             const size_t k = 2 * (size_t(y) * size_t(tile.width) + size_t(x));
             const size_t pixel = size_t(tile.y + y) * size_t(m.width) + size_t(tile.x + x);
             const double a = luminance(v.means[k]), b = luminance(v.means[k + 1]);
             m.mean[pixel] += (a + b) / 2;
-            m.camera_variance[pixel] += (a - b) * (a - b) / 4 * pilot_samples;
+            const Vec3d noise =
+                v.means[k] - v.means[k + 1] - (refined.means.empty() ? Vec3d{0, 0, 0} : refined.means[k] - refined.means[k + 1]);
+            m.camera_variance[pixel] += luminance(noise) * luminance(noise) / 4 * pilot_samples;
         }
+}
+
+// Whether so few samples meet the rarest fireflies is chance: no pixel counts for more than all others.
+void limit_largest(std::vector<double>& variances) {
+    const auto largest = std::ranges::max_element(variances);
+    const double largest_value = std::exchange(*largest, 0);
+    *largest = std::min(largest_value, std::accumulate(variances.begin(), variances.end(), 0.0));
 }
 
 // Sums over the image, and over its tiles relative to their means.
@@ -152,8 +164,8 @@ template <class Add> bool trace_light_tiles(const TileRunner& runner, KernelCont
 } // namespace
 
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
-                                                  const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                                                  const std::function<bool()>& wanted) {
+                                                  const std::optional<RefinedEmission>& refined, const Workers& workers,
+                                                  std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     const LightTables& lights = context.scene->lights;
     SceneTables of_sized = *context.scene;
     of_sized.emission_casters = of_sized.casters; // without panes: rays find what these reflect of lights with a size
@@ -180,13 +192,20 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
     context.scene = &tables;
     context.seed = camera_seed;
     const std::vector<TileJob>& tiles = image.tiles;
-    std::vector<VariantTile> variants(tiles.size());
-    if (!runner.for_each(tiles.size(), [&](size_t i, TileScratch& tile) { variants[i] = render_variant(context, kernel, tiles[i], tile); }))
-        return std::nullopt;
+    SceneTables of_emission;
+    KernelContext emission_context = context;
+    if (refined) restrict_to_emission(emission_context, of_emission, refined->longest_chain);
+    std::vector<VariantTile> variants(tiles.size()), emissions(tiles.size());
+    const auto render_tile = [&](size_t i, TileScratch& tile) {
+        variants[i] = render_variant(context, kernel, tiles[i], tile);
+        if (refined) emissions[i] = render_variant(emission_context, refined->kernel, tiles[i], tile);
+    };
+    if (!runner.for_each(tiles.size(), render_tile)) return std::nullopt;
     for (size_t i = 0; i < tiles.size(); ++i) {
-        add_camera_tile(tiles[i], variants[i], m);
+        add_camera_tile(tiles[i], variants[i], emissions[i], m);
         m.camera_work += path_work(variants[i], 1) / pilot_samples;
     }
+    limit_largest(m.camera_variance);
     pilot.work = m.light_work / double(paths);
     pilot.zero_size_work = m.alone_work / double(paths);
     size_t chosen = 0;

@@ -22,15 +22,23 @@ struct LightPathPilot {
     double work = 0, zero_size_work = 0;      // rays of a light path of lights with a size, of others (path_work)
 };
 
+// Emission that smooth edges refine in an image (edge_samples.h).
+struct RefinedEmission {
+    const Kernel& kernel; // that renders it, without light paths
+    int longest_chain;    // delta lobes between camera and emission
+};
+
 // Traces light paths and camera paths at a low resolution and chooses the share with the smallest variance x work. The second moment of
 // light that light paths can carry is measured by these paths for all shares at once: where the camera's strategies have the density `r`
 // times that of light paths, the moment of their combination is that of f^2 / (r + share) (balance heuristic, Veach 1997, 9.2). So it is
 // also known where no path of the camera has found the light. The rest is measured by the camera's paths. Light paths of lights without
 // size are measured alone: no other strategy finds what they carry.
 //
+// The noise of emission that smooth edges refine does not count: they take it away. `refined`: empty if the image has none.
+//
 // `scene_sphere` contains all surfaces; other arguments and the result as learn_path_guiding(), with what was learned before.
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
-                                                  const Workers& workers, std::vector<std::unique_ptr<TileScratch>>& scratch,
-                                                  const std::function<bool()>& wanted);
+                                                  const std::optional<RefinedEmission>& refined, const Workers& workers,
+                                                  std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
 
 } // namespace blush
