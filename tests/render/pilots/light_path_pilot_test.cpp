@@ -70,14 +70,14 @@ TEST(LightPathPilot, CountsTheRaysOfImages) {
     EXPECT_TRUE(statistics::z_verdict("rays differ", pilot->work - added.mean, error, added.mean, statistics::significance));
 }
 
-// The filament of the bulb, seen through its glass, has most of the noise in a pilot of this size, and light paths cannot take it away.
-// Smooth edges do, so it must not hide what light paths gain.
+// What the camera sees of the lamp in the metal ring has most of the noise in a pilot, and light paths cannot take it away. Smooth edges
+// do, so it must not hide what light paths gain.
 TEST(LightPathPilot, LeavesNoiseOfVisibleLampsToSmoothEdges) {
     RenderSettings settings;
-    settings.width = 770;
-    settings.height = 433;
-    const Measured bulb(shipped_scene("bulb"), settings);
-    const auto all = bulb.pilot({}), refined = bulb.pilot(RefinedEmission{bulb.kernel(false), longest_highlight_chain});
+    settings.width = 320;
+    settings.height = 180;
+    const Measured ring(shipped_scene("metal-ring"), settings);
+    const auto all = ring.pilot({}), refined = ring.pilot(RefinedEmission{ring.kernel(false), longest_highlight_chain});
     ASSERT_TRUE(all && refined && all->figures && refined->figures);
     EXPECT_LT(refined->figures->mse, 0.5 * all->figures->mse);
     EXPECT_EQ(refined->work, all->work);
