@@ -27,7 +27,7 @@ namespace blush {
 // repeated with the darkest neighbourhood that a pixel may belong to, and a fraction of the logarithm of the ratio, calibrated
 // against converged references, is added to the interval. Outliers, of which one half is much brighter than the mean around them, may
 // belong to lines of rare light that are brighter than that mean, or be fireflies. The other half is independent, so over all outliers
-// it tells which: the estimate is multiplied by what their brightness relative to the mean around is worth, and the interval widened.
+// it tells how bright these pixels are: the estimate falls as the divisor of brighter ones grows, and the interval is widened.
 //
 // Unknown for fewer than 64 pixels; if few of them carry the error; if one more sample of the brightest light could be a large
 // part of it; for relmse, if the interval spans more than a factor of 10. One more sample: for relmse, of the emission, where the pixel and

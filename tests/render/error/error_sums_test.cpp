@@ -293,8 +293,8 @@ public:
 private:
     static constexpr int samples = 32;
     double truth(int pixel) const {
-        const bool line = where_ == Where::everywhere || pixel % side % 8 == 4;
-        return line ? where_ == Where::everywhere ? around + 0.15 : 4 * around : around;
+        if (where_ == Where::everywhere) return around + 0.15;
+        return pixel % side % 8 == 4 ? 4 * around : around;
     }
 
     Where where_;

@@ -1,4 +1,4 @@
-// The pilot of light paths: what it knows of their work.
+// The pilot of light paths: what it knows of their work, and which noise it leaves out.
 #include "render/pilots/light_path_pilot.h"
 
 #include "render/film/edge_pixels.h"
