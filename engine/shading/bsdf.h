@@ -62,6 +62,13 @@ template <Features S, class F> Mask<F> is_lambertian(const Bsdf<F>& b) {
     if constexpr (has_layers(S)) lambertian = lambertian && b.p_base == F(1.f);
     return lambertian;
 }
+// True if the BSDF scatters with a density, and only to the side of the viewer.
+template <Features S, class F> Mask<F> only_reflects(const Bsdf<F>& b, const BsdfParams<F>& m) {
+    Mask<F> reflects = !is_delta_only<F>(b);
+    if constexpr (S.has(Feature::transmission)) reflects = reflects && !(m.transmission > F(0.f));
+    if constexpr (S.has(Feature::diffuse_transmission)) reflects = reflects && !(m.layers.diffuse_transmission > F(0.f));
+    return reflects;
+}
 
 // Share of the base's light that the layers let through between viewer and wi, both in the viewer's frame.
 template <Features S, class F> F left_for_base(const Bsdf<F>& b, const Vec<F>& wi) {

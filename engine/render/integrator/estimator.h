@@ -83,6 +83,8 @@ template <Features S, class F> Step<F> scatter(const SceneTables& scene, const E
                             side.solid, dispersed};
     if (bounce == 0) first_hit_planes<S, F>(scene, hit, lanes, p, side.wo, out.emitted, out.first);
     if (bounce <= 1 || samples_manifolds<S>(scene)) set_reuse_vertex<F>(p, out.reuse_vertex);
+    if (samples_manifolds<S>(scene))
+        out.reuse_vertex.begins_chains = scatters && !shading.behind && only_reflects<S, F>(bsdf, material.bsdf);
     if (bounce >= settings.max_bounces) return out;
 
     const Sampler<F> sampler{path.key, path.index};

@@ -179,14 +179,16 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     Vec<F> beta = splat<F>(0.f);
     F hit_ratio = v.hit_ratio, nee_ratio = bounce == 0 ? F(0.f) : v.nee_ratio;
     const Mask<F> dense = v.scatters && !s.delta;
-    Mask<F> begins_chains = Mask<F>(false); // of the camera
+    Mask<F> begins_chains = Mask<F>(false); // of the camera,
+    F chain_pdf = F(0.f);                   // whose direction has this density
     if (any(dense)) {
         const ViewedPoint<F> view =
             view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.side.wo, true, dense);
         const F seen = view.pdf / v.cosine, forward = s.pdf / cosine;
         const F factor = seen / max(forward, F(1e-30f));
         beta = view.value.f_cos * (1.f / (v.cosine * max(forward, F(1e-30f))));
-        begins_chains = dense && is_lambertian<S, F>(v.bsdf) && !view.behind;
+        begins_chains = dense && only_reflects<S, F>(v.bsdf, v.material.bsdf) && !view.behind;
+        chain_pdf = view.value.pdf;
         hit_ratio = select(dense, v.hit_ratio * factor, hit_ratio);
         nee_ratio = select(dense, bounce == 0 ? F(v.nee_ratio / max(forward, F(1e-30f))) : F(v.nee_ratio * factor), nee_ratio);
     }
@@ -201,7 +203,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
                       internal = reflects_partly_within<S, F>(v.side, v.bsdf, crosses);
         const ChainEvent<F> event{s.delta, crosses, internal, has_chains<F>(*context.scene, v.surface.material), begins_chains};
         if (const Mask<F> lit = v.scatters && is_lit_by_chain<F>(path.chain, event); any(lit))
-            keep_lit_vertices<F>(*scratch.light_vertices, path, v.surface, v.shading, v.side.wo, lit);
+            keep_lit_vertices<F>(*scratch.light_vertices, path, v.surface, v.shading, v.side.wo, chain_pdf, lit);
         chain = next_light_chain<F>(path.chain, event);
     }
     if (bounce + 1 >= settings.roulette.start && settings.roulette.rule != Roulette::Rule::off) {

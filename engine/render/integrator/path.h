@@ -20,7 +20,7 @@ template <class F> struct Path {
     // Only with Feature::light_paths: density with which light paths sample the path up to its last vertex, from there to the camera, over
     // that of the path (light_path_weights.h); and the same where the light found next may be connected by light paths, else 0.
     F light_ratio, emission_ratio;
-    // Only with Feature::light_paths: the chain of manifold sampling since the last Lambertian surface (emission_hit.h), else 0.
+    // Only with Feature::light_paths: the chain of manifold sampling since the last rough surface (emission_hit.h), else 0.
     Int<F> chain;
 };
 
@@ -41,16 +41,17 @@ template <class F> struct StepWeights {
     F guided = F(0.f);                  // share of path guiding in the density of the next direction
 };
 
-// First two vertices of a path, for connections by path reuse (path_reuse.h).
+// A vertex of a path, for connections by path reuse (path_reuse.h) and for manifold sampling.
 template <class F> struct ReuseVertex {
-    Mask<F> lambertian; // scatters equal radiance to all points in front of ng and ns
+    Mask<F> lambertian;    // scatters equal radiance to all points in front of ng and ns
+    Mask<F> begins_chains; // manifold sampling may begin here; only in scenes with it
     Vec<F> position;
     F clearance; // offset in metres along ng that keeps a ray's origin off the surface
     Vec<F> ng, ns, reflectance;
 };
 
 template <class F> struct Step {
-    ReuseVertex<F> reuse_vertex; // at bounces 0 and 1 only
+    ReuseVertex<F> reuse_vertex; // at bounces 0 and 1; with manifold sampling at all
     Mask<F> emits, connects, continues;
     Mask<F> crosses;     // the path goes on at the other side of the surface
     Mask<F> internal;    // it is reflected within a solid, not totally

@@ -216,7 +216,8 @@ inline void emit_photons(PhotonTrials& photons, PathQueue& q) {
         q.beta_r[k] = q.beta_g[k] = q.beta_b[k] = p.flux;
     }
 }
-// Records photons that smooth lobes have sent to diffuse surfaces: those that go on from there with the density of a diffuse lobe.
+// Records photons that smooth lobes have sent to rough surfaces; for path guiding, only those that go on from there with the density of a
+// diffuse lobe.
 template <class F> void record_photons(const LightTables& lights, PhotonTrials& photons, const Path<F>& path, const Step<F>& step,
                                        int bounce, const Mask<F>& lanes) {
     const Path<F>& next = step.next;
@@ -231,9 +232,10 @@ template <class F> void record_photons(const LightTables& lights, PhotonTrials& 
             const int32_t light = photons.emitted[size_t(lane(path.slot, i))].light;
             if (!has_zero_size(lights.lights[light])) // path guiding samples directions of lights that rays can hit
                 photons.arrived.push_back({at(next.ray.origin), at(next.normal), -at(path.ray.direction), luminance(at(path.beta))});
-            if (events > 0)
-                photons.chains.push_back(
-                    {at(next.ray.origin), at(next.normal), at(path.ray.origin), events, light, luminance(at(path.beta))});
+        }
+        if (events > 0 && !(delta >> i & 1)) {
+            const int32_t light = photons.emitted[size_t(lane(path.slot, i))].light;
+            photons.chains.push_back({at(next.ray.origin), at(next.normal), at(path.ray.origin), events, light, luminance(at(path.beta))});
         }
         const int32_t count = events >> chain_count_shift;
         if (events < 0 || !(delta >> i & 1) || internal >> i & 1 || count == max_chain_events)

@@ -236,9 +236,9 @@ template <Features S, class F> [[gnu::always_inline]] inline void next_path(cons
 template <Features S, class F> Int<F> chain_after(const SceneTables& scene, const Path<F>& path, const ShadingPoint<F>& p,
                                                   const IndirectSample<F>& s, const Step<F>& step, int bounce) {
     if (!samples_manifolds<S>(scene)) return Int<F>(0);
-    const Mask<F> begins = p.lambertian && !p.shading.behind && starts_chains<S, F>(scene, path, bounce);
+    const Mask<F> begins = step.reuse_vertex.begins_chains && starts_chains<S, F>(scene, path, bounce);
     const Mask<F> chains = has_chains<F>(scene, p.surface.material);
-    return next_chain<F>(path.chain, {s.bsdf.delta, step.crosses, step.internal, chains, begins},
+    return next_chain<F>(path.chain, {s.bsdf.delta, step.crosses, step.internal, chains, begins, p.lambertian},
                          Mask<F>(bounce > 0 && scene.manifolds.shares) && path.light_ratio > F(0.f));
 }
 

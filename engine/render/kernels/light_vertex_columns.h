@@ -19,7 +19,8 @@ struct LightVertexColumns {
     // The origin of its rays, normals, direction in which light arrives; the light's point (at infinity: direction towards it).
     Columns3 origin, ns, ng, wi, target;
     Columns3 reflected; // flux of the path times reflectance over pi
-    // Density of manifold sampling from a vertex here, over that of light paths: m^2.
+    Column<float> pdf;  // with which paths of the camera sample `wi`, 1/sr; only of shared chains
+    // Density of manifold sampling from a vertex here, over that of light paths: m^2; of shared chains, over `pdf`.
     Column<float> ratio;
 
     ShadowQueue connections; // of this bounce, without groups

@@ -12,10 +12,18 @@ struct Columns3 {
     Column<float> x, y, z;
 };
 
+// Hits where chains begin, as they are shaded again (render/integrator/manifold/receiver_bsdf.h).
+struct ReceiverHitColumns {
+    Column<int32_t> geometry, instance, triangle; // geometry -1: Lambertian, the rest is not set
+    Column<float> u, v, width;                    // width: of the texture filter, metres
+    Columns3 wo;                                  // to the vertex before
+};
+
 // Paths of the camera that find the same light by chance (render/integrator/manifold/manifold_hits.h).
 struct ManifoldHitColumns {
-    // By slot: the last diffuse vertex, the direction in which the path has left it, and light_ratio there.
+    // By slot: the last rough vertex, the direction in which the path has left it, and light_ratio there.
     Columns3 origin, ns, direction;
+    ReceiverHitColumns at;
     Column<float> start_ratio, start_arrival; // as ManifoldColumns::light_ratio and arrival
     // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
     int size = 0;
@@ -25,11 +33,12 @@ struct ManifoldHitColumns {
     Columns3 target, emitted;
 };
 
-// By receiver: one diffuse vertex of a path, with a point of a light.
+// By receiver: one rough vertex of a path, with a point of a light.
 struct ManifoldColumns {
     int size = 0;
-    // The receiver: origin of its rays, normals, throughput times reflectance over pi.
+    // The receiver: origin of its rays, normals, throughput; where it is Lambertian, times reflectance over pi.
     Columns3 origin, ns, ng, reflected;
+    ReceiverHitColumns at;
     Column<float> arrival;     // density with which paths reach it from a surface that connects to light vertices, 1/m^2; 0: from another
     Column<float> light_ratio; // light_ratio_behind() of the path; only beside light paths
     Column<int32_t> slot;

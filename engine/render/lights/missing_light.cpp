@@ -27,7 +27,9 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
     SmoothSurfaces surfaces;
     for (const Id<Material> id : used) {
         const Material* m = scene.materials.find(id);
-        if (!m || !is_smooth(*m)) continue;
+        if (!m) continue;
+        surfaces.rough_transmission |= is_translucent(*m) || (transmits(*m) && !is_smooth(*m));
+        if (!is_smooth(*m)) continue;
         surfaces.glass |= transmits(*m) && !is_thin(*m);
         surfaces.mirror = true;
     }
@@ -49,13 +51,15 @@ std::string missing_light(const Scene& scene, const std::vector<Id<Node>>& nodes
         which = std::string("that of point, spot and sun lights of zero size, ") +
                 (surfaces.glass ? "through smooth glass or by reflection in smooth surfaces" : "by reflection in smooth surfaces");
     else if (finders == CausticFinders::manifolds)
-        which = "caustics of point, spot and sun lights of zero size that are not on Lambertian surfaces, or";
+        which = "caustics of point, spot and sun lights of zero size that";
     else
         which = std::string("caustics of point, spot and sun lights of zero size, where they are seen ") +
                 (surfaces.glass ? "through smooth glass or in smooth surfaces" : "in smooth surfaces");
     if (finders == CausticFinders::light_paths_and_manifolds) which += " and";
-    if (finders == CausticFinders::manifolds || finders == CausticFinders::light_paths_and_manifolds)
+    if (finders == CausticFinders::manifolds || finders == CausticFinders::light_paths_and_manifolds) {
+        if (surfaces.rough_transmission) which += " are on rough glass or translucent surfaces, or";
         which += " come by way of more than six surfaces, or by partial reflections within glass";
+    }
     return "some light cannot be found: " + which + "; give these lights a radius or an angle, or the material some roughness";
 }
 

@@ -1,6 +1,7 @@
 // Detects light that the path tracer cannot find: neither NEE nor BSDF sampling finds a light of zero size through a delta lobe
 // (Veach 1997, section 8.3.2: paths of the form L S+ D ...). Light paths find it, but for what the camera sees through delta lobes
-// (L S+ D S+ E), and manifold sampling most of that. The rest is missing from the image and from its error estimate.
+// (L S+ D S+ E), and manifold sampling most of that, on surfaces that do not transmit light. The rest is missing from the image and from
+// its error estimate.
 #pragma once
 
 #include "scene/scene.h"
@@ -14,6 +15,8 @@ namespace blush {
 struct SmoothSurfaces {
     bool mirror = false; // all of them reflect
     bool glass = false;  // some also transmit; not panes, which pass light straight through (thin_transmission.h)
+    // Others transmit, as rough glass or translucent ones: chains of manifold sampling do not begin there.
+    bool rough_transmission = false;
 };
 // `used`: the materials of all rendered objects, each once or more.
 SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material>>& used);

@@ -80,6 +80,23 @@ TEST(MissingLight, IsReportedWithTheFrameAndItsError) {
     EXPECT_TRUE(std::ranges::any_of(warnings, [&](const Diagnostic& d) { return d.what == frame.missing_light; }));
 }
 
+TEST(MissingLight, IsOnSurfacesThatTransmitLightRoughly) {
+    Material frosted = glass(0.3f, 1.5f), paper = lambert(0.5f);
+    paper.diffuse_transmission = 0.5f;
+    for (const CausticFinders finders : {CausticFinders::manifolds, CausticFinders::light_paths_and_manifolds})
+        for (const Material& receiver : {lambert(0.5f), metal(0.3f), frosted, paper}) {
+            Room room;
+            room.put(glass(0, 1.5f));
+            room.put(receiver);
+            place_light(room.scene, lamp(Light::Kind::point, 0), at({0, 3, 0}));
+            const std::string missing =
+                missing_light(room.scene, nodes_with_lights(room.scene), smooth_surfaces(room.scene, room.used), finders);
+            const bool transmits = receiver.transmission > 0 || receiver.diffuse_transmission > 0;
+            EXPECT_EQ(missing.find("are on rough glass or translucent surfaces, or come by way") != std::string::npos, transmits)
+                << missing;
+        }
+}
+
 // Each strategy that finds a part of it makes the message shorter.
 TEST(MissingLight, IsWhatTheStrategiesOfTheImageDoNotFind) {
     Scene scene;
@@ -103,8 +120,8 @@ TEST(MissingLight, IsWhatTheStrategiesOfTheImageDoNotFind) {
               "some light cannot be found: that of point, spot and sun lights of zero size, by reflection in smooth surfaces" + end);
     EXPECT_EQ(missing(CausticStrategy::light_paths), by_light_paths + end);
     EXPECT_EQ(missing(CausticStrategy::manifold),
-              "some light cannot be found: caustics of point, spot and sun lights of zero size that are not on Lambertian surfaces, or "
-              "come by way of more than six surfaces, or by partial reflections within glass" +
+              "some light cannot be found: caustics of point, spot and sun lights of zero size that come by way of more than six "
+              "surfaces, or by partial reflections within glass" +
                   end);
     EXPECT_EQ(missing(CausticStrategy::automatic),
               by_light_paths + " and come by way of more than six surfaces, or by partial reflections within glass" + end);

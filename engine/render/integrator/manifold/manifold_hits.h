@@ -23,11 +23,13 @@ template <class F> HitShare<F> share_of_hits(const F& path_density, const F& den
     return {select(ratio < F(least_hit_ratio), F(0.f), min(ratio, F(1.f))), 1.f / max(ratio, F(1.f))};
 }
 
-// Keeps where the chains of paths that go on from a diffuse vertex begin.
-template <class F> void note_chain_starts(const SceneTables& scene, ManifoldHitColumns& c, const Path<F>& path, const Step<F>& step) {
+// Keeps where the chains of paths that go on from a rough vertex begin. `hit`: of path.ray.
+template <Features S, class F>
+void note_chain_starts(const KernelContext& context, ManifoldHitColumns& c, const Path<F>& path, const Hit<F>& hit, const Step<F>& step) {
     const Mask<F> begins = step.continues && chain_begins<F>(step.next.chain);
+    if (!any(begins)) return;
     const ReuseVertex<F>& v = step.reuse_vertex;
-    const F arrival = arrival_density<F>(scene, path, v);
+    const F arrival = arrival_density<F>(*context.scene, path, v), footprint = receiver_width<S, F>(context, path, hit);
     // Receivers of hits have the shading normal alone.
     const Vec<F>& wi = step.next.ray.direction;
     const F ratio = light_ratio_behind<F>(path, v) * clamped_cosine<F>(v.ng, wi) / clamped_cosine<F>(v.ns, wi);
@@ -43,6 +45,7 @@ template <class F> void note_chain_starts(const SceneTables& scene, ManifoldHitC
         keep(c.ns, v.ns);
         c.start_ratio[slot] = lane(ratio, i);
         c.start_arrival[slot] = lane(arrival, i);
+        keep_receiver_hit<F>(c.at, slot, i, path, hit, footprint, v.lambertian);
     });
 }
 
@@ -118,6 +121,7 @@ template <Features S, class F> void add_hit_receivers(const SceneTables& scene, 
         const GroupSeeds<F> seeds = seeds_of_group<F>(t, region_at<F>(t, origin, ns, active), group, active);
         const F density = seeds.probability * p.density / to_float(gather_field(t.groups, &ManifoldGroup::lights, group));
         const int first = c.size;
+        for (int i = 0; i < width<F> && k + i < hits.size; ++i) copy_receiver_hit(c.at, first + i, hits.at, hits.slot[k + i]);
         Int<F> wavelength = Int<F>(0);
         if constexpr (S.has(Feature::dispersion)) wavelength = valid(load<Int<F>>(hits.wavelength + k));
         append_receivers<S, F>(scene, c,

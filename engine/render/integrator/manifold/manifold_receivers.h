@@ -1,7 +1,8 @@
-// The receivers of manifold sampling (manifold_sampling.h): Lambertian vertices of paths, each with a point of a light.
+// The receivers of manifold sampling (manifold_sampling.h): rough vertices of paths that reflect light, each with a point of a light.
 #pragma once
 
 #include "render/integrator/emission_hit.h"
+#include "render/integrator/manifold/receiver_bsdf.h"
 #include "render/kernels/kernel.h"
 #include "shading/path_guiding.h"
 
@@ -99,13 +100,15 @@ template <class F> Int<F> region_at(const ManifoldTables& t, const Vec<F>& origi
     return gather(t.regions_of_cell, select(active, guiding_cell<F>(t.grid, origin, ns), Int<F>(0)));
 }
 
-// Density with which the path has reached this vertex from a Lambertian surface before, where that connects to light vertices
+// Density with which the path has reached this Lambertian vertex from another one before, where that connects to light vertices
 // (light_vertices.h): 1/m^2; else 0.
 template <class F> F arrival_density(const SceneTables& scene, const Path<F>& path, const ReuseVertex<F>& v) {
     if (scene.light_vertices.empty()) return F(0.f);
     const Vec<F> way = v.position - path.ray.origin;
     const F density = path.pdf * abs(dot(v.ng, path.ray.direction)) / max(dot(way, way), F(1e-30f));
-    return select(chain_begins<F>(path.chain) && !has_flag<F>(path.chain, shares_chains), density, F(0.f));
+    const Mask<F> connects = v.lambertian && chain_begins<F>(path.chain) && has_flag<F>(path.chain, begins_lambertian) &&
+                             !has_flag<F>(path.chain, shares_chains);
+    return select(connects, density, F(0.f));
 }
 
 // MIS weight of light vertices beside manifold sampling. `arrival`: as above; `ratio`: LightVertexColumns::ratio.
@@ -118,10 +121,17 @@ template <class F> F receiver_survival(const SceneTables& scene, const F& arriva
     return select(arrival > F(0.f), min(max(odds, F(least_receiver_survival)), F(1.f)), F(1.f));
 }
 
-// Path::light_ratio behind a Lambertian vertex, but for the density of the direction in which the path leaves it.
+// Path::light_ratio behind a vertex, but for the density of the direction in which the path leaves it and, where the vertex is not
+// Lambertian, ReceiverBsdf::reverse.
 template <class F> F light_ratio_behind(const Path<F>& path, const ReuseVertex<F>& v) {
     const Vec<F> wo = -path.ray.direction;
-    return path.light_ratio * cosine_hemisphere_pdf(max(dot(v.ns, wo), F(0.f))) / clamped_cosine<F>(v.ng, wo);
+    const F reverse = select(v.lambertian, cosine_hemisphere_pdf(max(dot(v.ns, wo), F(0.f))), F(1.f));
+    return path.light_ratio * reverse / clamped_cosine<F>(v.ng, wo);
+}
+// Width of the texture filter where the path has met a surface: metres.
+template <Features S, class F> F receiver_width(const KernelContext& context, const Path<F>& path, const Hit<F>& hit) {
+    if constexpr (S.has(Feature::textures)) return cone_width<F>(context.scene->camera, context.settings, path, hit.t);
+    return F(0.f);
 }
 
 // A receiver and its point of a light.
@@ -179,14 +189,14 @@ void append_receivers(const SceneTables& scene, ManifoldColumns& c, const ChainR
     c.size += count(queued);
 }
 
-// Queues the diffuse vertices of these paths, each with a point of a light.
+// Queues the rough vertices of these paths, each with a point of a light.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receivers(const KernelContext& context, TileScratch& scratch,
-                                                                                  const Path<F>& path, const Step<F>& step, int bounce,
-                                                                                  const Mask<F>& active) {
+                                                                                  const Path<F>& path, const Hit<F>& hit,
+                                                                                  const Step<F>& step, int bounce, const Mask<F>& active) {
     const ReuseVertex<F>& v = step.reuse_vertex;
-    const Mask<F> lambertian =
-        active && v.lambertian && max_component(v.reflectance) > F(0.f) && starts_chains<S, F>(*context.scene, path, bounce);
-    if (bounce + 1 >= context.settings.max_bounces || !any(lambertian)) return;
+    if (bounce + 1 >= context.settings.max_bounces) return;
+    const Mask<F> begins = active && v.begins_chains && starts_chains<S, F>(*context.scene, path, bounce);
+    if (!any(begins)) return;
     const SceneTables& scene = *context.scene;
     const ManifoldTables& t = scene.manifolds;
     ManifoldColumns& c = *scratch.manifolds;
@@ -194,7 +204,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
     UInt<F> random = pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x68e31da4u))));
     const Vec<F> origin = offset_origin(v.position, v.ng * v.clearance);
     const F arrival = arrival_density<F>(scene, path, v), q = receiver_survival<F>(scene, arrival);
-    const Mask<F> tried = lambertian && next_random<F>(random) < q;
+    const Mask<F> tried = begins && next_random<F>(random) < q;
     if (!any(tried)) return;
     const Int<F> own = region_at<F>(t, origin, v.ns, tried);
     // The group of lights.
@@ -219,9 +229,13 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void add_receiver
         wavelength = wavelength_step<F>(Sampler<F>{path.key, path.index});
         dispersed = as_mask(path.dispersed != 0);
     }
+    const F footprint = receiver_width<S, F>(context, path, hit);
+    int to = c.size;
+    for_each_lane(bits(queued), [&](int i) { keep_receiver_hit<F>(c.at, to++, i, path, hit, footprint, v.lambertian); });
+    const Vec<F> reflected = step.weights.arriving * select<F>(v.lambertian, v.reflectance * inv_pi, splat<F>(1.f)) * (1.f / q);
     append_receivers<S, F>(scene, c,
-                           {origin, v.ns, v.ng, step.weights.arriving * v.reflectance * (inv_pi / q), p, path.slot, seeds, density, random,
-                            light_ratio_behind<F>(path, v), arrival, wavelength, dispersed},
+                           {origin, v.ns, v.ng, reflected, p, path.slot, seeds, density, random, light_ratio_behind<F>(path, v), arrival,
+                            wavelength, dispersed},
                            queued);
 }
 

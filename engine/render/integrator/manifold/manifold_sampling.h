@@ -1,8 +1,8 @@
-// Manifold sampling: connects diffuse surfaces to points of lights through chains of mirrors and smooth glass (Zeltner, Georgiev and
+// Manifold sampling: connects rough surfaces to points of lights through chains of mirrors and smooth glass (Zeltner, Georgiev and
 // Jakob 2020, "Specular Manifold Sampling for Rendering High-Frequency Caustics and Glints", there the unbiased variant). So caustics are
 // found that neither NEE nor light paths can connect: those on the bottom of a pool that is seen through its water.
 //
-// For a diffuse point and a point of a light, Newton's method looks for a direction whose chain of specular events leads to the light
+// For a point of a surface and a point of a light, Newton's method looks for a direction whose chain of specular events leads to the light
 // (Hanika, Droske and Fascione 2015, "Manifold Next Event Estimation"). Here the unknown is the direction, two numbers however long the
 // chain is: the chain is traced together with its derivatives by them (specular_chain.h). A solution of determinant |d target / d
 // direction| J carries f cos T L / (p J). The probability to find it from a random seed is unknown, but the number of further seeds until
@@ -53,30 +53,31 @@ template <Features S, class F> F beside_light_vertices(const SceneTables& scene,
 }
 
 // Density of light paths with the same vertices over that of the camera path to the receiver (path_chain.h): 1/sr.
-template <Features S, class F>
-F density_of_light_paths(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w, const Mask<F>& active) {
-    const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active);
+template <Features S, class F> F density_of_light_paths(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
+                                                        const ReceiverBsdf<F>& at, const Mask<F>& active) {
+    const F emitted = solution_emission<S, F>(scene, scene.emission, c, w, active) * at.reverse;
     return min(F(gather(c.light_ratio, w.index) * emitted * clamped_cosine<F>(load3<F>(c.ng, w.index), w.direction)), F(1e30f));
 }
 // MIS weight of manifold sampling beside light paths, and of the hits that share its light. `pdf`: of the direction.
 template <Features S, class F> [[gnu::noinline]] F beside_shared_light_paths(const SceneTables& scene, const ManifoldColumns& c,
-                                                                             const Walk<F>& w, const F& pdf, const Mask<F>& active) {
+                                                                             const Walk<F>& w, const ReceiverBsdf<F>& at, const F& pdf,
+                                                                             const Mask<F>& active) {
     const Mask<F> shared = active && as_mask((gather(c.kind, w.index) & int32_t(receiver_shares)) != 0);
     if (!any(shared)) return F(1.f);
     const F by_walks = max(F(pdf * walk_weight), F(1e-30f));
-    return select(shared, by_walks / (by_walks + density_of_light_paths<S, F>(scene, c, w, shared)), F(1.f));
+    return select(shared, by_walks / (by_walks + density_of_light_paths<S, F>(scene, c, w, at, shared)), F(1.f));
 }
 
 // For the pilot: density with which paths of the camera and light paths together sample the direction of a solution; the probabilities of
 // the chain's events are left out, which are near 1 or weight little light. 0 for lights of zero size that light paths do not find.
 template <Features S, class F> [[gnu::noinline]] F density_without(const SceneTables& scene, const ManifoldColumns& c, const Walk<F>& w,
-                                                                   const F& cosine, const Mask<F>& active) {
+                                                                   const ReceiverBsdf<F>& at, const Mask<F>& active) {
     const GuideTables& guides = scene.manifolds.guides_without;
-    const auto guide = direction_guide_at<F>(guides, load3<F>(c.origin, w.index), load3<F>(c.ns, w.index), active);
-    const F by_hits = guided_pdf<F>(guides, guide, w.direction, cosine_hemisphere_pdf(cosine));
+    const auto guide = direction_guide_at<F>(guides, load3<F>(c.origin, w.index), load3<F>(c.ns, w.index), active && at.lambertian);
+    const F by_hits = guided_pdf<F>(guides, guide, w.direction, at.pdf);
     const F density = select(of_zero_size<F>(c, w), F(0.f), by_hits);
     if (scene.emission.empty()) return density;
-    return density + density_of_light_paths<S, F>(scene, c, w, active);
+    return density + density_of_light_paths<S, F>(scene, c, w, at, active);
 }
 
 // Light that has come to the path of a slot through a chain.
@@ -218,35 +219,38 @@ template <class F> Mask<F> of_zero_size(const ManifoldColumns& c, const Walk<F>&
     return as_mask((gather(c.kind, w.index) & int32_t(receiver_zero_size)) != 0);
 }
 
+template <class F> F cosine_at_receiver(const ManifoldColumns& c, const Walk<F>& w) {
+    return max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f));
+}
+
 // Hits of paths whose chain has been traced: they get all their light, none, or trials decide.
 template <Features S, class F>
 void weigh_hits(const KernelContext& context, TileScratch& scratch, int bounce, const Mask<F>& retraced, Walk<F>& w, WalkRound<F>& round) {
     ManifoldColumns& c = *scratch.manifolds;
     const ChainEnd<F> end = end_of_chain<F>(c, w);
-    const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f));
     const F density = gather(c.density, w.index) * end.determinant / max(cos_at_light<F>(c, w), F(1e-20f));
-    const F by_paths = cosine_hemisphere_pdf(cosine);
     const unsigned lanes = bits(retraced);
     const Mask<F> solved = retraced && round.ends && end.valid;
     if (c.traced != ManifoldColumns::Traced::hits) {
         LightVertexColumns& v = *scratch.light_vertices;
         const Int<F> slot = gather(c.slot, w.index);
         const F ratio = c.traced == ManifoldColumns::Traced::light_vertices
-                            ? over_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved)
-                            : F(density / max(cosine, F(1e-20f)));
+                            ? over_light_vertices<S, F>(*context.scene, c, w, density, cosine_at_receiver<F>(c, w), solved)
+                            : F(density / max(gather(v.pdf, slot), F(1e-20f)));
         put<F>(v.ratio, slot, ratio, bits(solved));
         // Paths that meet the light keep all of it there.
         put_int<F>(v.chain, slot, Int<F>(0), lanes & ~bits(solved));
         round.alive = round.alive && !retraced;
         return;
     }
-    const HitShare<F> share = share_of_hits<F>(by_paths, density);
-    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, density, cosine, solved) *
-                     beside_shared_light_paths<S, F>(*context.scene, c, w, density, solved);
+    const ReceiverBsdf<F> at = receiver_bsdf<S, F>(context, c.at, w.index, load3<F>(c.ns, w.index), w.direction, retraced);
+    const HitShare<F> share = share_of_hits<F>(at.pdf, density);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, density, at.cosine, solved) *
+                     beside_shared_light_paths<S, F>(*context.scene, c, w, at, density, solved);
     put3<F>(c.found, w.index, load3<F>(c.found, w.index) * beside, lanes);
     if (c.measures) {
-        const F without = density_without<S, F>(*context.scene, c, w, cosine, retraced);
-        put<F>(c.base, w.index, luminance(load3<F>(c.found, w.index)) * by_paths / max(without, F(1e-20f)), lanes);
+        const F without = density_without<S, F>(*context.scene, c, w, at, retraced);
+        put<F>(c.base, w.index, luminance(load3<F>(c.found, w.index)) * at.pdf / max(without, F(1e-20f)), lanes);
     }
     put<F>(c.same, w.index, end.same, lanes);
     put<F>(c.coin, w.index, share.coin, lanes);
@@ -264,11 +268,12 @@ void weigh_hits(const KernelContext& context, TileScratch& scratch, int bounce, 
 // Keeps the solutions of the lanes of `solved` that carry light; the others end.
 template <Features S, class F> void keep_solutions(const KernelContext& context, ManifoldColumns& c, const ChainEnd<F>& end, int bounce,
                                                    const Mask<F>& solved, Walk<F>& w, WalkRound<F>& round) {
-    const F cosine = max(dot(w.direction, load3<F>(c.ns, w.index)), F(0.f)), facing = cos_at_light<F>(c, w);
+    const ReceiverBsdf<F> at = receiver_bsdf<S, F>(context, c.at, w.index, load3<F>(c.ns, w.index), w.direction, solved);
+    const F facing = cos_at_light<F>(c, w);
     const F pdf = gather(c.density, w.index) * end.determinant / max(facing, F(1e-20f)); // of the direction
-    const F by_paths = select(of_zero_size<F>(c, w), F(0.f), cosine_hemisphere_pdf(cosine));
+    const F by_paths = select(of_zero_size<F>(c, w), F(0.f), at.pdf);
     const HitShare<F> share = share_of_hits<F>(by_paths, pdf);
-    Vec<F> found = load3<F>(c.reflected, w.index) * load3<F>(c.emission, w.index) * w.transmittance * (cosine / pdf);
+    Vec<F> found = load3<F>(c.reflected, w.index) * load3<F>(c.emission, w.index) * w.transmittance * at.f_cos * (1.f / pdf);
     found = select<F>(facing > F(0.f), found, splat<F>(0.f));
     if constexpr (S.has(Feature::clearcoat)) found = found * through_clearcoat(gather(c.clearcoat, w.index), facing);
     if constexpr (S.has(Feature::light_profiles))
@@ -282,14 +287,14 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     }
     const unsigned lanes = bits(carries);
     put3<F>(c.root, w.index, w.direction, lanes);
-    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, cosine, carries) *
-                     beside_shared_light_paths<S, F>(*context.scene, c, w, pdf, carries);
+    const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, at.cosine, carries) *
+                     beside_shared_light_paths<S, F>(*context.scene, c, w, at, pdf, carries);
     put3<F>(c.found, w.index, found * (share.kept * beside), lanes);
     put<F>(c.same, w.index, end.same, lanes);
     put<F>(c.coin, w.index, share.coin, lanes);
     put_int<F>(c.root_chain, w.index, w.chain, lanes);
     if (c.measures) {
-        const F density = density_without<S, F>(*context.scene, c, w, cosine, carries);
+        const F density = density_without<S, F>(*context.scene, c, w, at, carries);
         const F least = select(of_zero_size<F>(c, w), pdf * unfound_density, F(1e-20f));
         put<F>(c.base, w.index, luminance(found) * pdf / max(density, least), lanes);
     }
@@ -443,6 +448,7 @@ inline void queue_light_vertex(ManifoldHitColumns& hits, const LightVertexColumn
     copy(hits.ns, slot, v.ns, slot);
     copy(hits.direction, slot, v.wi, slot);
     hits.start_ratio[slot] = hits.start_arrival[slot] = 0;
+    hits.at.geometry[slot] = -1; // its BSDF is not asked for
 }
 
 // Traces the chains of the queued hits again.

@@ -1,5 +1,5 @@
 // MIS of light paths with manifold sampling (path_chain.h), as light paths see it. The light vertices of a tile (LightVertexColumns) hold
-// the first Lambertian surface of each light path that has been lit by a chain: the slot is that of the path. When such a path enters a
+// the first rough surface of each light path that has been lit by a chain: the slot is that of the path. When such a path enters a
 // mirror or glass, the chain is traced again from the light vertex, for the density of manifold sampling there.
 #pragma once
 
@@ -28,14 +28,15 @@ template <Features S> void begin_light_chains(const SceneTables& scene, TileScra
     }
 }
 
-// Keeps light vertices in the lanes of `lit`. `wi`: towards the vertex before.
+// Keeps light vertices in the lanes of `lit`. `wi`: towards the vertex before; `pdf`: with which paths of the camera go there.
 template <class F> void keep_lit_vertices(LightVertexColumns& v, const Path<F>& path, const Surface<F>& surface,
-                                          const ShadingFrame<F>& shading, const Vec<F>& wi, const Mask<F>& lit) {
+                                          const ShadingFrame<F>& shading, const Vec<F>& wi, const F& pdf, const Mask<F>& lit) {
     const unsigned lanes = bits(lit);
     put_int<F>(v.chain, path.slot, chain_events<F>(path.chain), lanes);
     put3<F>(v.origin, path.slot, offset_origin(surface.position, shading.ng * clearance(shading.ng, surface.error)), lanes);
     put3<F>(v.ns, path.slot, shading.ns, lanes);
     put3<F>(v.wi, path.slot, wi, lanes);
+    put<F>(v.pdf, path.slot, pdf, lanes);
 }
 
 // Traces the chains of the paths in `q` again that now share them. Sets LightVertexColumns::ratio to k d over LightPathVertex::hit_ratio
@@ -55,7 +56,7 @@ void weigh_shared_chains(const KernelContext& context, TileScratch& scratch, con
     retrace_light_vertices<S, F>(context, scratch, rays, ManifoldColumns::Traced::light_paths);
     for (int k = 0; k < size; ++k) {
         const int slot = shared[k];
-        v.ratio[slot] = v.chain[slot] != 0 ? v.ratio[slot] * (walk_weight * float(pi)) : std::numeric_limits<float>::infinity();
+        v.ratio[slot] = v.chain[slot] != 0 ? v.ratio[slot] * walk_weight : std::numeric_limits<float>::infinity();
         v.chain[slot] = 0;
     }
 }

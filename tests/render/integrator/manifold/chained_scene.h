@@ -35,7 +35,10 @@ public:
         return {&scene, &compiled_.accel(), kernel_settings(settings_, float(size), float(size)), seed};
     }
     Features features() const { return compiled_.features(); }
-    SceneTables with_vertices() const { return with_vertices(usual_ratio); }
+    SceneTables with_vertices() const {
+        EXPECT_GT(usual_ratio, 0);
+        return with_vertices(usual_ratio);
+    }
     SceneTables with_vertices(float ratio) const {
         SceneTables t = tables;
         t.light_vertices = {emission.tables(1), &emission, ratio, 0.1f};
@@ -100,7 +103,7 @@ public:
     static constexpr int size = 24, samples = 7, paths = size * size * samples;
     SceneTables tables;
     LightPathEmission emission;
-    float usual_ratio = 0;
+    float usual_ratio = 0; // 0: there are no light vertices
 
 private:
     float measured_ratio() const {
@@ -112,8 +115,7 @@ private:
             sum += std::log(double(tile->light_vertices->ratio[slot]));
             ++count;
         }
-        EXPECT_GT(count, 0);
-        return float(std::exp(sum / std::max(count, 1)));
+        return count > 0 ? float(std::exp(sum / count)) : 0;
     }
 
     RenderSettings settings_;

@@ -36,9 +36,9 @@ inline GeometryPtr round_sphere() {
 }
 
 // Smooth casters of caustics over a floor: a metal and a glass ball.
-inline Scene smooth_balls() {
+inline Scene smooth_balls(const Material& floor = lambert({0.7f, 0.6f, 0.5f})) {
     Scene scene;
-    place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
+    place(scene, floor_quad(2), floor);
     place(scene, round_sphere(), metal(0), at({-0.7f, 0.5f, 0}, 0.4f));
     place(scene, round_sphere(), glass(0, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.4f));
     scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
@@ -92,11 +92,11 @@ inline std::vector<std::pair<const char*, Scene>> lit_scenes() {
     return scenes;
 }
 
-inline void add_walls(Scene& scene) {
+inline void add_walls(Scene& scene, const Material& material = lambert({0.8f, 0.75f, 0.7f})) {
     const auto wall = [&](const Vec3& center, const Vec3& size) {
         Transform t = at(center);
         t.scale = size;
-        place(scene, cube(false), lambert({0.8f, 0.75f, 0.7f}), t);
+        place(scene, cube(false), material, t);
     };
     wall({0, 0.8f, -1.6f}, {2, 0.8f, 0.1f});
     wall({-1.8f, 0.8f, 0}, {0.1f, 0.8f, 1.6f});
@@ -107,6 +107,21 @@ inline std::vector<std::pair<const char*, Scene>> walled_scenes() {
     auto scenes = lit_scenes();
     for (auto& [name, scene] : scenes) add_walls(scene);
     return scenes;
+}
+
+// Surfaces with other lobes than a Lambertian one: chains begin there, too.
+inline std::vector<std::pair<const char*, Material>> rough_materials() {
+    std::vector<std::pair<const char*, Material>> materials;
+    const auto add = [&](const char* name, const Material& base, const auto& change) { change(materials.emplace_back(name, base).second); };
+    const Material paint = lambert({0.7f, 0.6f, 0.5f});
+    add("plastic", paint, [](Material& m) { m.specular = 1, m.roughness = 0.4f; });
+    add("polish", paint, [](Material& m) { m.specular = 1, m.roughness = 0; }); // a delta lobe on a diffuse base
+    add("metal", metal(0.35f), [](Material&) {});
+    add("coat and sheen", paint, [](Material& m) {
+        m.clearcoat = 0.8f, m.clearcoat_roughness = 0.3f;
+        m.sheen_color = {0.5f, 0.3f, 0.2f}, m.sheen_roughness = 0.5f;
+    });
+    return materials;
 }
 
 // Solids that spread light by its wavelength: a ball, and a cube that also reflects it totally. A second ball does not.
@@ -168,12 +183,12 @@ inline GeometryPtr waves() {
 }
 
 // White walls and bottom under waves, and a sun, by default of half a degree, whose reflection the camera does not see.
-inline Scene deep_pool(float sun_angle_radians = 0.0087f) {
+inline Scene deep_pool(float sun_angle_radians = 0.0087f, const Material& walls = lambert(0.8f)) {
     Scene scene;
     const auto wall = [&](const Vec3& center, const Vec3& size) {
         Transform t = at(center);
         t.scale = size;
-        place(scene, cube(false), lambert(0.8f), t);
+        place(scene, cube(false), walls, t);
     };
     wall({0, -1.1f, 0}, {1.1f, 0.1f, 1.1f});
     for (const float side : {-1.f, 1.f}) {
@@ -190,8 +205,8 @@ inline Scene deep_pool(float sun_angle_radians = 0.0087f) {
 }
 
 // The walls of a pool above its water, under a sun so wide that paths find it by chance.
-inline Scene dry_walls(float sun_angle_radians = 0.6f) {
-    Scene scene = deep_pool(sun_angle_radians);
+inline Scene dry_walls(float sun_angle_radians = 0.6f, const Material& walls = lambert(0.8f)) {
+    Scene scene = deep_pool(sun_angle_radians, walls);
     scene.view = looking({0.9f, 0.9f, 0.9f}, {-0.9f, 0.1f, -0.9f}, 0.6f);
     return scene;
 }

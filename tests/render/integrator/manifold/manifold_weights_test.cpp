@@ -55,13 +55,15 @@ SceneTables without_manifolds(const ChainedScene& scene) {
     return tables;
 }
 
-// Light that is found behind mirrors and glass, so not by NEE. image(tables of the strategy that may be wrong, seed).
-template <class Image> void catches_wrong_densities(const ChainedScene& scene, const SceneTables& right, const Image& image) {
+// Light that is found behind mirrors and glass by these strategies, if there are no others. image(tables of the strategy that may be wrong,
+// seed).
+using FoundByPaths = std::initializer_list<FoundBy>;
+constexpr FoundByPaths by_hits = {FoundBy::camera_hit, FoundBy::guided};
+template <class Image>
+void catches_wrong_densities(const ChainedScene& scene, const SceneTables& right, const Image& image, FoundByPaths by_paths = by_hits) {
     constexpr int images = 64;
     const SceneTables plain = without_manifolds(scene);
-    const auto without = ChainedScene::quarters_of(images, 1, [&](uint32_t seed) {
-        return found_by(scene, plain, seed, {FoundBy::camera_hit, FoundBy::guided});
-    });
+    const auto without = ChainedScene::quarters_of(images, 1, [&](uint32_t seed) { return found_by(scene, plain, seed, by_paths); });
     const auto weighted_for = [&](float factor, uint32_t first_seed) {
         const WrongDensity wrong(right, factor);
         return ChainedScene::quarters_of(images, first_seed, [&](uint32_t seed) { return image(wrong.tables, seed); });
@@ -72,9 +74,9 @@ template <class Image> void catches_wrong_densities(const ChainedScene& scene, c
     for (const float factor : {0.1f, 10.f}) EXPECT_FALSE(same_means(weighted_for(factor, 2000), with)) << factor;
 }
 
-TEST(ManifoldWeights, OfHitsThatAreWrongAreCaught) {
+void catches_wrong_hits(const Material& floor) {
     // A lamp so large that paths find much of its light.
-    Scene balls = smooth_balls();
+    Scene balls = smooth_balls(floor);
     place(balls, ceiling_quad(1.8f, 2.5f), emitter(10));
     const ChainedScene scene(balls, settings_for(24, 24, 7));
     catches_wrong_densities(scene, scene.tables, [&](const SceneTables& tables, uint32_t seed) {
@@ -82,6 +84,8 @@ TEST(ManifoldWeights, OfHitsThatAreWrongAreCaught) {
                found_by(scene, tables, seed, {FoundBy::camera_hit, FoundBy::guided});
     });
 }
+TEST(ManifoldWeights, OfHitsThatAreWrongAreCaught) { catches_wrong_hits(lambert({0.7f, 0.6f, 0.5f})); }
+TEST(ManifoldWeights, OfHitsThatAreWrongAreCaughtOnRoughMetal) { catches_wrong_hits(metal(0.35f)); }
 
 TEST(ManifoldWeights, OfLightVerticesThatAreWrongAreCaught) {
     const ChainedScene scene(deep_pool(0.6f), settings_for(24, 24, 7));
@@ -92,15 +96,23 @@ TEST(ManifoldWeights, OfLightVerticesThatAreWrongAreCaught) {
     });
 }
 
-TEST(ManifoldWeights, OfLightPathsThatAreWrongAreCaught) {
-    const ChainedScene scene(dry_walls(), settings_for(24, 24, 7));
+// On surfaces that are not Lambertian light paths share light with NEE, too.
+void catches_wrong_light_paths(const Material& walls, FoundByPaths by_paths) {
+    const ChainedScene scene(dry_walls(0.6f, walls), settings_for(24, 24, 7));
     constexpr int light_paths = 4 * ChainedScene::size * ChainedScene::size;
     SceneTables right = scene.tables;
     right.emission = scene.emission.tables(float(light_paths));
-    catches_wrong_densities(scene, right, [&](const SceneTables& tables, uint32_t seed) {
-        return found_by(scene, right, seed, {FoundBy::manifold, FoundBy::camera_hit, FoundBy::guided}) +
-               scene.splats(tables, light_paths, seed);
-    });
+    catches_wrong_densities(
+        scene, right,
+        [&](const SceneTables& tables, uint32_t seed) {
+            return found_by(scene, right, seed, {FoundBy::manifold}) + found_by(scene, right, seed, by_paths) +
+                   scene.splats(tables, light_paths, seed);
+        },
+        by_paths);
+}
+TEST(ManifoldWeights, OfLightPathsThatAreWrongAreCaught) { catches_wrong_light_paths(lambert(0.8f), by_hits); }
+TEST(ManifoldWeights, OfLightPathsThatAreWrongAreCaughtOnPlastic) {
+    catches_wrong_light_paths(rough_materials()[0].second, {FoundBy::camera_hit, FoundBy::guided, FoundBy::nee});
 }
 
 } // namespace

@@ -23,6 +23,8 @@ std::vector<std::pair<const char*, Scene>> shared_scenes() {
     scenes.emplace_back("balls between walls, a sun", std::move(walled[3].second));
     scenes.emplace_back("dry walls of a pool", dry_walls());
     add_walls(scenes.emplace_back("dispersive solids between walls", dispersive_solids()).second);
+    scenes.emplace_back("dry walls of a pool, plastic", dry_walls(0.6f, rough_materials()[0].second));
+    scenes.emplace_back("dry walls of a pool, metal", dry_walls(0.6f, rough_materials()[2].second));
     return scenes;
 }
 
