@@ -2,8 +2,10 @@
 #include "tests/render/integrator/caustic_images.h"
 #include "tests/render/integrator/manifold/lit_casters.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,25 @@ namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
+
+// A floor of metal and plastic in turn, of several colours and roughnesses, with bumps and stretched highlights.
+Scene on_a_textured_floor() {
+    Scene scene = smooth_balls();
+    Geometry floor = *floor_quad(2, 0.02f);
+    floor.serial = next_payload_serial();
+    floor.normals.assign(4, {0, 1, 0});
+    floor.tangents.assign(4, {1, 0, 0, 1});
+    const std::array<Vec3, 4> colors{{{0.9f, 0.2f, 0.4f}, {0.8f, 0.8f, 0.8f}, {0.3f, 0.3f, 0.9f}, {0.5f, 0.9f, 0.1f}}},
+        surfaces{{{0, 0.3f, 1}, {0, 0.5f, 0}, {0, 0.8f, 1}, {0, 0.4f, 0.3f}}},
+        normals{{{0.6f, 0.5f, 0.9f}, {0.4f, 0.6f, 0.9f}, {0.5f, 0.5f, 1}, {0.5f, 0.4f, 0.9f}}};
+    Material m = metal(1);
+    m.base_color_texture.texture = add_texture(scene, float_image(2, 2, colors));
+    m.metallic_roughness_texture.texture = add_texture(scene, float_image(2, 2, surfaces));
+    m.normal_texture.texture = add_texture(scene, float_image(2, 2, normals));
+    m.anisotropy = 0.6f;
+    place(scene, std::make_shared<const Geometry>(std::move(floor)), m);
+    return scene;
+}
 
 // A floor of each material between diffuse walls, and diffuse floors between walls of it: light vertices are on some of them.
 std::vector<std::pair<const char*, Scene>> rough_scenes() {
@@ -21,6 +42,7 @@ std::vector<std::pair<const char*, Scene>> rough_scenes() {
         scenes.emplace_back(name, std::move(scene));
     };
     for (const auto& [name, material] : rough_materials()) add(name, smooth_balls(material), lambert({0.8f, 0.75f, 0.7f}));
+    add("textures, bumps and anisotropy", on_a_textured_floor(), lambert({0.8f, 0.75f, 0.7f}));
     add("walls of plastic", smooth_balls(), rough_materials()[0].second);
     add("rough glass", smooth_balls(glass(0.3f, 1.5f)), lambert({0.8f, 0.75f, 0.7f}));
     return scenes;
