@@ -1,5 +1,5 @@
 // Seeds of manifold sampling (render/integrator/manifold/manifold_sampling.h): where Newton's method looks for the ways by which light
-// reaches a diffuse surface through mirrors and glass. Photons have found them; they are stored by region of the receivers.
+// reaches a rough surface through mirrors and glass. Photons have found them; they are stored by region of the receivers.
 #pragma once
 
 #include "shading/path_guiding.h"
@@ -8,10 +8,10 @@
 
 namespace blush {
 
-// Specular events between a diffuse surface and a light; longer chains are left to the other strategies.
+// Specular events between a rough surface and a light; longer chains are left to the other strategies.
 constexpr int max_chain_events = 6;
 
-// The events of a chain as one number: bit k is the event k of a path from the diffuse surface, 1 a refraction, 0 a reflection; the
+// The events of a chain as one number: bit k is the event k of a path from the rough surface, 1 a refraction, 0 a reflection; the
 // number of events is in the bits from chain_count_shift.
 constexpr int chain_count_shift = 8;
 

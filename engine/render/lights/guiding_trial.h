@@ -23,7 +23,7 @@ struct EmittedPhoton {
     int32_t light = -1; // record
 };
 
-// A photon on a diffuse surface that it has reached from its light by delta lobes alone.
+// A photon on a rough surface that it has reached from its light by delta lobes alone.
 struct ChainPhoton {
     Vec3 position, normal, target; // target: point of its last surface before
     int32_t chain, light;          // events from here to the light (shading/manifold_seeds.h), record
