@@ -20,6 +20,10 @@ bool has_size(const Light& light) {
 }
 
 bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < smooth_roughness; }
+// Transmits light, and has lobes with a density.
+bool is_rough_and_transmits(const Material& m) {
+    return is_translucent(m) || (transmits(m) && (!is_smooth(m) || m.transmission < 1 || m.transmission_texture.texture));
+}
 
 } // namespace
 
@@ -28,7 +32,7 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
     for (const Id<Material> id : used) {
         const Material* m = scene.materials.find(id);
         if (!m) continue;
-        surfaces.rough_transmission |= is_translucent(*m) || (transmits(*m) && !is_smooth(*m));
+        surfaces.rough_transmission |= is_rough_and_transmits(*m);
         if (!is_smooth(*m)) continue;
         surfaces.glass |= transmits(*m) && !is_thin(*m);
         surfaces.mirror = true;

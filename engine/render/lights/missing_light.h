@@ -11,11 +11,12 @@
 
 namespace blush {
 
-// Smooth surfaces of rendered objects.
+// Surfaces of rendered objects that are smooth, and others that smooth ones send light to.
 struct SmoothSurfaces {
     bool mirror = false; // all of them reflect
     bool glass = false;  // some also transmit; not panes, which pass light straight through (thin_transmission.h)
-    // Others transmit, as rough glass or translucent ones: chains of manifold sampling do not begin there.
+    // Some transmit and are not smooth, or not only: rough glass, translucent and half-clear ones. Chains of manifold sampling do not
+    // begin there.
     bool rough_transmission = false;
 };
 // `used`: the materials of all rendered objects, each once or more.
