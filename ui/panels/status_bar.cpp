@@ -84,8 +84,9 @@ void add_denoised_cells(const PanelContext& c, Cells& cells, const Frame& frame)
     const DenoisedImage* denoised = c.denoised.get();
     cells.push_back(
         {19, shown_text(view, frame, denoised),
-         "The displayed image, and how far the denoised one is behind the raw one. While the camera moves, parts of the view before are "
-         "shown; they are never measured or saved.",
+         "The displayed image, and how far the denoised one is behind the raw one. Fast and base quality are for images that still change; "
+         "the complete image gets the high one. While the camera moves, parts of the view before are shown; they are never measured or "
+         "saved.",
          tone::text, 7});
     if (!denoised) return;
     cells.push_back({9, fmt::format("energy {} %", signed_number(energy_change_percent(denoised->denoised), 2)),

@@ -60,6 +60,8 @@ std::string shown_text(const DenoiseView& view, const Frame& frame, const Denois
         std::string(denoised->is_enlarged ? ", edges sharpened" : "") +
         (denoised->has_history() ? fmt::format(", {:.0f} % of the view before", 100 * denoised->with_history.share) : "");
     if (denoised->divider != frame.divider) return text + fmt::format(" of 1/{} size{}", denoised->divider, edges);
+    // The complete image gets the high quality after a while: until then the displayed one changes by itself.
+    if (denoised->quality != DenoiseQuality::high) text += fmt::format(", {} quality", to_string(denoised->quality));
     text += edges;
     const int64_t samples = frame.samples - denoised->samples;
     if (samples > 0)

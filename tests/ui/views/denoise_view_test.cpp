@@ -73,11 +73,18 @@ TEST(DenoiseView, TextNamesTheImageAndItsDelay) {
     DenoisedImage denoised = denoised_of(4, 4, 0);
     denoised.samples = 16;
     denoised.rendered_seconds = 6;
+    denoised.quality = DenoiseQuality::high;
     EXPECT_EQ(shown_text({Show::raw, 0}, frame, &denoised), "raw");
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, nullptr), "raw, denoising");
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised, 32 spp and 1.5 s behind");
     EXPECT_EQ(shown_text({Show::blend, 0.4f}, frame, &denoised), "blend 40 %, 32 spp and 1.5 s behind");
+    denoised.quality = DenoiseQuality::fast;
+    EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised, fast quality, 32 spp and 1.5 s behind");
     denoised.samples = 48;
+    EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised, fast quality");
+    denoised.quality = DenoiseQuality::base;
+    EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised, base quality");
+    denoised.quality = DenoiseQuality::high;
     EXPECT_EQ(shown_text({Show::difference, 0}, frame, &denoised), "difference");
     denoised.divider = 4;
     EXPECT_EQ(shown_text({Show::denoised, 0}, frame, &denoised), "denoised of 1/4 size");
