@@ -1,5 +1,6 @@
 // MIS with light paths: paths from lights whose vertices are connected to the camera (t = 1; Veach 1997, section 10.2). They carry only
-// light whose first surface is not Lambertian: what is lit through glass and by mirrors. The others are better found by NEE.
+// light whose first surface is not Lambertian, and is not the one that the camera sees: what is lit through glass and by mirrors. The
+// others are better found by NEE.
 //
 // A path with vertices x1 (seen by the camera) ... xk and the light y has the densities, with p' = pdf / |cos| over projected solid angle,
 //

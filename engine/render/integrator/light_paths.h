@@ -117,7 +117,7 @@ F nee_density(const SceneTables& scene, const LightPathColumns& columns, int k, 
     return nee_pdf<S, F>(scene, to, at, lanes) / v.cosine;
 }
 
-// Queues the connection of a vertex to the camera: radiance, as a share of one light path's flux, with its MIS weight.
+// Queues the connection of a vertex behind the first to the camera: radiance, as a share of one light path's flux, with its MIS weight.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] void
 connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>& path, const LightPathVertex<F>& v, int bounce) {
     const SceneTables& scene = *context.scene;
@@ -139,7 +139,7 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     if constexpr (S.has(Feature::transmission))
         if (scene.panes) value = value * (1.f / max(v.scatter_share, F(0x1p-24f)));
     const F seen = view.pdf / v.cosine;
-    const F hit = v.hit_ratio * seen * per_path, nee = (bounce == 0 ? v.nee_ratio : v.nee_ratio * seen) * per_path;
+    const F hit = v.hit_ratio * seen * per_path, nee = v.nee_ratio * seen * per_path;
     F weight = 1.f / (1.f + hit * hit + nee * nee);
     if (const Mask<F> shared = seen_by_camera && has_flag<F>(path.chain, shares_chains); samples_manifolds<S>(scene) && any(shared))
         weight = select(shared, weight_of_shared_chains<F>(*scratch.light_vertices, path, hit, shared), weight);
@@ -258,7 +258,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
             v.hit_ratio = load<F>(columns.hit_ratio[1 - queue] + k);
             v.nee_ratio = load<F>(columns.nee_ratio[1 - queue] + k);
         }
-        if (bounce > 0 || !scene.emission.alone) connect_vertex<S, F>(context, scratch, path, v, bounce);
+        if (bounce > 0) connect_vertex<S, F>(context, scratch, path, v, bounce);
         if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, scratch, next, queue);
     }
 }

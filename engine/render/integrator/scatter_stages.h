@@ -265,11 +265,13 @@ template <Features S, class F> F reverse_density(const SceneTables& scene, const
            clamped_cosine<F>(p.shading.ng, wo);
 }
 
-// Lowers the weight of NEE by the density of light paths, where they carry its light: on surfaces that are not Lambertian.
+// Lowers the weight of NEE by the density of light paths, where they carry its light: behind the first vertex of the camera's path, on
+// surfaces that are not Lambertian.
 template <Features S, class F>
 [[gnu::noinline, gnu::flatten]] void weigh_direct(const SceneTables& scene, const EstimatorSettings& settings, const ShadingPoint<F>& p,
                                                   const MaterialPoint<F>& material, const Vec<F>& wo, const F& ratio, int bounce,
                                                   Step<F>& out) {
+    if (bounce == 0) return;
     const Mask<F> shared = out.connects && !p.lambertian && ratio > F(0.f);
     if (!any(shared)) return;
     const Vec<F>& wi = out.shadow.direction;
@@ -300,7 +302,7 @@ template <Features S, class F>
         factor = select(dense && forward > F(0.f), reverse / max(forward, F(1e-30f)), select(dense, F(0.f), factor));
     }
     next.light_ratio = min(F(ratio * factor), F(1e30f));
-    next.emission_ratio = select(p.lambertian, F(0.f), next.light_ratio);
+    next.emission_ratio = select(p.lambertian || Mask<F>(bounce == 0), F(0.f), next.light_ratio);
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -29,7 +29,7 @@ Scene rough_balls() {
     place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
     place(scene, sphere(false), metal(0.2f), at({-0.7f, 0.5f, 0}, 0.5f));
     place(scene, sphere(false), glass(0.2f, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.5f));
-    place(scene, ceiling_quad(0.5f, 2.5f), emitter(10));
+    place(scene, ceiling_quad(2, 2.5f), emitter(1));
     scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
     return scene;
 }
@@ -104,7 +104,7 @@ std::vector<Measured> blocks_of(int images, uint32_t first_seed, const auto& par
 
 TEST(LightPathWeights, ThatAreWrongDoNotAgree) {
     const Scene scene = rough_balls();
-    constexpr int images = 12;
+    constexpr int images = 16;
     const auto alone = [&](uint32_t seed) { return parts_of(scene, seeded(16, seed), 0).camera; };
     const auto without = blocks_of(images, 1, [&](uint32_t seed) { return std::pair{alone(seed), Pixels(side * side)}; });
     std::vector<Pixels> cameras;
