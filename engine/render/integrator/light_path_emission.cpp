@@ -17,6 +17,9 @@ constexpr double even_share = 0.1;
 // A light gives a caster at least this share of what it would give if it faced it.
 constexpr double min_facing = 0.05;
 
+// What smooth window glass reflects of light that falls on it, about: other casters get all of their light.
+constexpr double pane_share = 0.1;
+
 enum EmissionDimension : uint32_t { pair_dimension, point_dimension, direction_dimension };
 
 double flux_of_triangle(const LightRecord& light, const CasterSphere& caster) {
@@ -51,6 +54,9 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
     }
     return 0;
 }
+
+// Of other lights, rays find the reflection by panes.
+bool is_emitted_to_panes(const LightRecord& light) { return has_zero_size(light) || LightKind(light.kind) == LightKind::sun; }
 
 // Integral of the environment's radiance over all directions; luminance.
 double integral_of_environment(const SceneTables& tables) {
@@ -126,6 +132,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             double& f = flux[i * columns + k];
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
             if (!std::isfinite(f)) f = 0;
+            if (k >= size_t(tables.casters.count) && k + 1 < columns) f *= is_emitted_to_panes(light) ? pane_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }

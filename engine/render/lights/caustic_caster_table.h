@@ -14,7 +14,8 @@ namespace blush {
 
 // True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool casts_caustics(const Material& material);
-// True for smooth window glass: it focuses nothing, but what it reflects of lights without size is found by light paths alone.
+// True for smooth window glass: it focuses nothing, but what it reflects of suns is found by few rays, and of lights without size by light
+// paths alone.
 bool reflects_as_pane(const Material& material);
 
 // Bounding sphere of a geometry, in object space.

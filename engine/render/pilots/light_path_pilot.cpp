@@ -167,9 +167,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
                                                   const std::optional<RefinedEmission>& refined, const Workers& workers,
                                                   std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     const LightTables& lights = context.scene->lights;
-    SceneTables of_sized = *context.scene;
-    of_sized.emission_casters = of_sized.casters; // without panes: rays find what these reflect of lights with a size
-    LightPathEmission sized(of_sized, scene_sphere, [&](int32_t light) { return !has_zero_size(lights.lights[light]); });
+    LightPathEmission sized(*context.scene, scene_sphere, [&](int32_t light) { return !has_zero_size(lights.lights[light]); });
     LightPathPilot pilot{.emission = {}, .zero_size = LightPathEmission::of_zero_size_lights(*context.scene, scene_sphere)};
     if (sized.empty() && pilot.zero_size.empty()) return pilot;
     const PilotImage image = pilot_image(context.settings, pilot_pixels);
