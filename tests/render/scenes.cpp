@@ -11,6 +11,12 @@ Scene shipped_scene(const std::string& name) {
     if (!imported) throw std::runtime_error(imported.error().text());
     return std::move(imported->scene);
 }
+Material window_glass(const Vec3& tint) {
+    Material pane = glass(0, 1.5f);
+    pane.thickness = 0;
+    pane.base_color = tint;
+    return pane;
+}
 Scene glass_ball_in_sun() {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.7f));

@@ -80,14 +80,12 @@ Scene dispersive_ball() {
 // Behind a pane and a blended surface; half of the ball is plastic.
 Scene through_a_window() {
     Scene scene = before(0.3f);
-    Material pane = glass(0, 1.5f), leaf = lambert(0.6f), half = glass(0, 1.5f);
-    pane.thickness = 0;
-    pane.base_color = {0.9f, 0.95f, 1};
+    Material leaf = lambert(0.6f), half = glass(0, 1.5f);
     leaf.alpha = Material::Alpha::blend;
     leaf.opacity = 0.5f;
     half.transmission = 0.5f;
     place(scene, sphere(false), half);
-    place(scene, quad({-2, -2, 1.5f}, {2, -2, 1.5f}, {2, 2, 1.5f}, {-2, 2, 1.5f}), pane);
+    place(scene, quad({-2, -2, 1.5f}, {2, -2, 1.5f}, {2, 2, 1.5f}, {-2, 2, 1.5f}), window_glass({0.9f, 0.95f, 1}));
     place(scene, quad({-2, -2, 1.2f}, {0.2f, -2, 1.2f}, {0.2f, 2, 1.2f}, {-2, 2, 1.2f}), leaf);
     return scene;
 }

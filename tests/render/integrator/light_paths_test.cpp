@@ -76,9 +76,7 @@ std::vector<std::pair<const char*, Scene>> lit_scenes() {
 // What lets pass a part of the light, before, between and behind the balls: panes, of which one glows and one is half diffuse, blended
 // surfaces, and panes that are blended.
 Scene with_panes(Scene scene) {
-    Material pane = glass(0, 1.5f);
-    pane.thickness = 0;
-    pane.base_color = {0.9f, 0.6f, 0.8f};
+    const Material pane = window_glass({0.9f, 0.6f, 0.8f});
     Material glowing = pane, half = pane;
     glowing.emissive = {1, 2, 3};
     glowing.double_sided = true;
@@ -89,8 +87,7 @@ Scene with_panes(Scene scene) {
     return scene;
 }
 Scene with_leaves(Scene scene, bool of_glass) {
-    Material leaf = of_glass ? glass(0, 1.5f) : lambert({0.2f, 0.6f, 0.3f});
-    leaf.thickness = 0;
+    Material leaf = of_glass ? window_glass() : lambert({0.2f, 0.6f, 0.3f});
     leaf.alpha = Material::Alpha::blend;
     leaf.opacity = 0.6f;
     place(scene, floor_quad(0.7f, 1.5f), leaf, at({0.4f, 0, 0}));
@@ -346,9 +343,7 @@ TEST(LightPaths, AreAlwaysUsedForLightsWithoutSize) {
 TEST(LightPaths, AreEmittedToPanesByLightsWithoutSize) {
     Scene room;
     place(room, floor_quad(2), lambert(0.5f));
-    Material pane = glass(0, 1.5f);
-    pane.thickness = 0;
-    place(room, floor_quad(0.8f, 1.6f), pane);
+    place(room, floor_quad(0.8f, 1.6f), window_glass());
     place(room, ceiling_quad(0.5f, 2.5f), emitter(10));
     EXPECT_EQ(Compiled(room).scene.tables().emission_casters.count, 0) << "rays hit the lamp";
     place_light(room, caustic_light(Light::Kind::point, 10), at({0, 1, 0}));

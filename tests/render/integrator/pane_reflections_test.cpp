@@ -19,12 +19,6 @@ using namespace statistics;
 constexpr float real_sun = 0.53f * std::numbers::pi_v<float> / 180; // angular diameter
 constexpr float albedo = 0.6f;
 
-Material window_glass() {
-    Material m = glass(0, 1.5f);
-    m.thickness = 0;
-    return m;
-}
-
 // A floor before an upright pane of this width, in a sun that is reflected onto it at 45 degrees; seen from above, 2 half metres of it.
 Scene terrace(float sun_angle, const Material& floor, float pane_width, float half) {
     Scene scene;

@@ -13,13 +13,6 @@ namespace {
 using statistics::sidak;
 using statistics::significance;
 
-// Window glass as glTF writes it: transmission without volume, no roughness.
-Material window_glass(const Vec3& tint = {1, 1, 1}) {
-    Material m = glass(0, 1.5f);
-    m.thickness = 0;
-    m.base_color = tint;
-    return m;
-}
 // Appendix B: the tint times 1 - F, F Schlick's from 0.04.
 double passes(double cosine, double tint = 1) { return tint * (1 - (0.04 + 0.96 * std::pow(1 - cosine, 5))); }
 

@@ -30,10 +30,7 @@ Scene furnished_room() {
     leaf.alpha = Material::Alpha::blend;
     leaf.opacity = 0.5f;
     place(scene, floor_quad(0.4f), leaf, at({0.1f, 0.7f, 0}));
-    Material pane = glass(0, 1.5f);
-    pane.thickness = 0;
-    pane.base_color = {0.9f, 0.95f, 1};
-    place(scene, floor_quad(0.5f), pane, at({-0.2f, 1.2f, 0.1f}));
+    place(scene, floor_quad(0.5f), window_glass({0.9f, 0.95f, 1}), at({-0.2f, 1.2f, 0.1f}));
     Material checked = plastic(0.3f);
     checked.base_color_texture.texture = add_texture(
         scene,

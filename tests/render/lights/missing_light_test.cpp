@@ -37,8 +37,7 @@ std::string said(const Material& material, const Light& light, CausticFinders fi
 }
 
 TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
-    Material pane = glass(0, 1.5f);
-    pane.thickness = 0;
+    Material pane = window_glass();
     pane.specular = 0;
     for (const Light::Kind kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun}) {
         EXPECT_TRUE(said(glass(0, 1.5f), lamp(kind, 0)).starts_with("some light cannot be found"));

@@ -30,9 +30,7 @@ std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settin
 Scene behind_panes() {
     Scene scene = smooth_balls();
     place(scene, ceiling_quad(0.7f, 2.5f), emitter(10));
-    Material pane = glass(0, 1.5f);
-    pane.thickness = 0;
-    pane.base_color = {0.9f, 0.6f, 0.8f};
+    const Material pane = window_glass({0.9f, 0.6f, 0.8f});
     place(scene, floor_quad(0.4f, 1.4f), pane, at({0.4f, 0, 0}));
     place(scene, floor_quad(0.3f, 0.05f), pane, at({0.9f, 0, 0.2f}));
     place(scene, quad({-0.9f, 0.1f, 1}, {0.2f, 0.1f, 1}, {0.2f, 0.9f, 1}, {-0.9f, 0.9f, 1}), pane);
