@@ -132,7 +132,8 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             double& f = flux[i * columns + k];
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
             if (!std::isfinite(f)) f = 0;
-            if (k >= size_t(tables.casters.count) && k + 1 < columns) f *= is_emitted_to_panes(light) ? pane_share : 0;
+            const bool is_pane = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
+            if (is_pane) f *= is_emitted_to_panes(light) ? pane_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }
