@@ -109,7 +109,7 @@ void RenderScene::update_used_materials(const Scene& scene, const UpdatePlan& pl
     };
     changed_.emission = plan.all_materials || std::ranges::any_of(plan.materials, emits);
     changed_.emitters = used.emissive != used_.emissive;
-    changed_.casters = used.casters != used_.casters || used.pane_casters != used_.pane_casters;
+    changed_.casters = used.casters != used_.casters || used.weak_casters != used_.weak_casters;
     changed_.alpha = used.alpha != used_.alpha;
     used_ = std::move(used);
     tables_.blends = used_.blends;

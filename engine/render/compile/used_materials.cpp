@@ -24,7 +24,7 @@ UsedMaterials describe(std::vector<Id<Material>> ids, const Scene& scene, const 
         if (material->alpha != Material::Alpha::opaque) used.alpha.push_back(id);
         used.blends |= material->alpha == Material::Alpha::blend;
         if (casts_caustics(*material)) used.casters.push_back(id);
-        if (reflects_as_pane(*material)) used.pane_casters.push_back(id);
+        if (reflects_weakly(*material)) used.weak_casters.push_back(id);
         used.panes |= may_pass_straight(*material);
         const TextureReads reads = texture_reads(*material);
         used.uv_sets.insert(reads.uv_sets.begin(), reads.uv_sets.end());

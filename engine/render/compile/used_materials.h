@@ -16,7 +16,7 @@ struct UsedMaterials {
     std::vector<Id<Material>> alpha;        // not opaque
     std::vector<Id<Material>> emissive;     // their triangles are lights
     std::vector<Id<Material>> casters;      // of caustics
-    std::vector<Id<Material>> pane_casters; // see reflects_as_pane()
+    std::vector<Id<Material>> weak_casters; // see reflects_weakly()
     std::set<int> uv_sets;                  // that their textures read
     bool tangents = false;
     bool blends = false;     // some is neither opaque nor masked

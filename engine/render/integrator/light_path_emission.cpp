@@ -17,8 +17,8 @@ constexpr double even_share = 0.1;
 // A light gives a caster at least this share of what it would give if it faced it.
 constexpr double min_facing = 0.05;
 
-// What smooth window glass reflects of light that falls on it, about: other casters get all of their light.
-constexpr double pane_share = 0.1;
+// What weak reflectors reflect of light that falls on them, about: other casters get all of their light.
+constexpr double weak_share = 0.1;
 
 enum EmissionDimension : uint32_t { pair_dimension, point_dimension, direction_dimension };
 
@@ -55,8 +55,8 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
     return 0;
 }
 
-// Of other lights, rays find the reflection by panes.
-bool is_emitted_to_panes(const LightRecord& light) { return has_zero_size(light) || LightKind(light.kind) == LightKind::sun; }
+// Of other lights, rays find the reflection by weak reflectors.
+bool is_emitted_to_weak(const LightRecord& light) { return has_zero_size(light) || LightKind(light.kind) == LightKind::sun; }
 
 // Integral of the environment's radiance over all directions; luminance.
 double integral_of_environment(const SceneTables& tables) {
@@ -132,8 +132,8 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             double& f = flux[i * columns + k];
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
             if (!std::isfinite(f)) f = 0;
-            const bool is_pane = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
-            if (is_pane) f *= is_emitted_to_panes(light) ? pane_share : 0;
+            const bool is_weak = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
+            if (is_weak) f *= is_emitted_to_weak(light) ? weak_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }

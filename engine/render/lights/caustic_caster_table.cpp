@@ -1,6 +1,8 @@
 #include "render/lights/caustic_caster_table.h"
 
 #include "core/math.h"
+#include "render/materials/material_factors.h"
+#include "render/materials/material_layers.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -11,11 +13,13 @@ namespace {
 
 // Above this roughness, NEE finds the reflected light well enough.
 constexpr float max_caster_roughness = 0.2f;
+// The same of a weak reflection, which is found at less cost beside the diffuse part.
+constexpr float max_weak_roughness = 0.15f;
 
 // Minimal share of specular reflection or refraction in a material's light; less is not visible next to the diffuse part.
 constexpr float min_specular_share = 0.5f;
 
-bool is_narrow(const Material& m) { return m.roughness <= max_caster_roughness && !m.unlit && m.alpha == Material::Alpha::opaque; }
+bool is_opaque(const Material& m) { return !m.unlit && m.alpha == Material::Alpha::opaque; }
 
 // Upper bound of the scale factor of a transform: exact for rotations with uniform scale, else the Frobenius norm.
 double max_scale(const Affined& a) {
@@ -28,14 +32,18 @@ double max_scale(const Affined& a) {
 
 bool casts_caustics(const Material& m) {
     const float refracts = m.thickness > 0 ? m.transmission : 0; // thin walls do not bend light (thin_transmission.h)
-    return is_narrow(m) && std::max(m.metallic, refracts) >= min_specular_share;
+    return is_opaque(m) && m.roughness <= max_caster_roughness && std::max(m.metallic, refracts) >= min_specular_share;
 }
 
-bool reflects_as_pane(const Material& m) { return is_narrow(m) && !casts_caustics(m) && m.transmission >= min_specular_share; }
+bool reflects_weakly(const Material& m) {
+    const bool base = reflects(m) && m.roughness <= max_weak_roughness, coat = is_coated(m) && m.clearcoat_roughness <= max_weak_roughness;
+    return is_opaque(m) && !casts_caustics(m) && (base || coat);
+}
 
 const char* why_no_guides(const CausticCasterTables& guides, const CausticCasterTables& all) {
     if (guides.count > 0) return nullptr;
-    return all.count > 0 ? "no mirror or solid glass has light to focus that rays can hit" : "no mirror or glass has light to focus";
+    return all.count > 0 ? "no mirror or solid glass has light to focus that rays can hit"
+                         : "no smooth surface has light to focus";
 }
 
 GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
@@ -48,13 +56,13 @@ GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
 
 void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted) {
     std::map<uint64_t, GeometryBoundingSphere> used;
-    std::vector<CasterSphere> mirrors_and_glass, panes;
+    std::vector<CasterSphere> mirrors_and_glass, weak;
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             const Material* material = scene.materials.find(part.material);
             if (!material) continue;
             const bool focuses = wanted.mirrors_and_glass && casts_caustics(*material);
-            if (!focuses && !(wanted.panes && reflects_as_pane(*material))) continue;
+            if (!focuses && !(wanted.weak_reflectors && reflects_weakly(*material))) continue;
             const uint64_t serial = part.geometry->serial;
             if (!used.contains(serial)) {
                 const auto known = by_serial_.find(serial);
@@ -67,12 +75,12 @@ void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject
                 // Slightly enlarged against rounding.
                 const double radius = sphere.radius * max_scale(world_from_copy) * (1 + 1e-5);
                 if (radius > 0 && std::isfinite(radius) && std::isfinite(dot(center, center)))
-                    (focuses ? mirrors_and_glass : panes).push_back({to_float(center), float(radius)});
+                    (focuses ? mirrors_and_glass : weak).push_back({to_float(center), float(radius)});
             }
         }
     by_serial_ = std::move(used);
     spheres_.clear();
-    for (auto* kind : {&mirrors_and_glass, &panes}) {
+    for (auto* kind : {&mirrors_and_glass, &weak}) {
         std::ranges::stable_sort(*kind, std::greater<>(), &CasterSphere::radius);
         kind->resize(std::min(kind->size(), max_casters - spheres_.size()));
         spheres_.insert(spheres_.end(), kind->begin(), kind->end());

@@ -14,9 +14,9 @@ namespace blush {
 
 // True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool casts_caustics(const Material& material);
-// True for smooth window glass: it focuses nothing, but what it reflects of suns is found by few rays, and of lights without size by light
-// paths alone.
-bool reflects_as_pane(const Material& material);
+// True for other smooth or nearly smooth surfaces that reflect some light: window glass, plastic, varnish. The few rays that they reflect
+// rarely find a sun, and light paths alone find lights without size there.
+bool reflects_weakly(const Material& material);
 
 // Bounding sphere of a geometry, in object space.
 struct GeometryBoundingSphere {
@@ -36,12 +36,12 @@ public:
 
     // Which casters an image needs.
     struct Wanted {
-        bool mirrors_and_glass = false, panes = false;
+        bool mirrors_and_glass = false, weak_reflectors = false;
         bool operator==(const Wanted&) const = default;
     };
     // `objects` in their traced form; positions are relative to `origin`.
     void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted);
-    // Mirrors and glass, then panes.
+    // Mirrors and glass, then weak reflectors.
     CausticCasterTables tables() const { return {spheres_.data(), int32_t(spheres_.size())}; }
     CausticCasterTables mirrors_and_glass() const { return {spheres_.data(), mirrors_and_glass_}; }
 

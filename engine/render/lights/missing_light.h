@@ -13,7 +13,7 @@ namespace blush {
 
 // Surfaces of rendered objects that are smooth, and others that smooth ones send light to.
 struct SmoothSurfaces {
-    bool mirror = false; // all of them reflect
+    bool mirror = false; // all of them reflect, and smooth clear coats
     bool glass = false;  // some also transmit; not panes, which pass light straight through (thin_transmission.h)
     // Some transmit and are not smooth, or not only: rough glass, translucent and half-clear ones. Chains of manifold sampling do not
     // begin there.

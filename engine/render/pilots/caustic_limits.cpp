@@ -6,7 +6,7 @@ namespace blush {
 
 const char* why_no_caustics(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
     const SceneTables& tables = scene.tables();
-    if (tables.emission_casters.count == 0) return "no mirror or glass has light to focus";
+    if (tables.emission_casters.count == 0) return "no smooth surface has light to focus";
     if (settings.strategy != Strategy::mis) return "light and BSDF sampling are not combined";
     if (settings.heuristic != MisHeuristic{}) return "MIS uses another heuristic than the power heuristic with exponent 2";
     if (settings.max_bounces != unlimited_bounces && settings.max_bounces < 2) return "paths end before light has been focused";

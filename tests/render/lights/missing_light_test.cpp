@@ -37,12 +37,17 @@ std::string said(const Material& material, const Light& light, CausticFinders fi
 }
 
 TEST(MissingLight, IsThatOfZeroSizeLightsAtSmoothSurfaces) {
-    Material pane = window_glass();
+    Material pane = window_glass(), coated = lambert(0.5f);
     pane.specular = 0;
+    coated.clearcoat = 1;
+    Material rough_coat = coated;
+    rough_coat.clearcoat_roughness = 0.1f;
     for (const Light::Kind kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::sun}) {
         EXPECT_TRUE(said(glass(0, 1.5f), lamp(kind, 0)).starts_with("some light cannot be found"));
         EXPECT_NE(said(glass(0, 1.5f), lamp(kind, 0)).find("through smooth glass"), std::string::npos);
         EXPECT_NE(said(metal(0), lamp(kind, 0)).find("by reflection"), std::string::npos);
+        EXPECT_NE(said(coated, lamp(kind, 0)).find("by reflection"), std::string::npos);
+        EXPECT_EQ(said(rough_coat, lamp(kind, 0)), "");
         EXPECT_NE(said(metal(0), lamp(kind, 0), CausticFinders::light_paths)
                       .find("caustics of point, spot and sun lights of zero size, where they are seen in smooth"),
                   std::string::npos);

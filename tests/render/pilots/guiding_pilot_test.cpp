@@ -55,10 +55,10 @@ TEST(GuidingPilot, PaysWhereLightIsFocused) {
 }
 
 TEST(GuidingPilot, IsLeftOutWhereNothingFocuses) {
-    EXPECT_EQ(decided(shipped_scene("cornell"), settings_of(8)).why, "no mirror or glass has light to focus");
+    EXPECT_EQ(decided(shipped_scene("cornell"), settings_of(8)).why, "no smooth surface has light to focus");
     RenderSettings settings = settings_of(8);
     settings.strategy = Strategy::bsdf;
-    EXPECT_EQ(decided(balls_under_lamp(), settings).why, "no mirror or glass has light to focus");
+    EXPECT_EQ(decided(balls_under_lamp(), settings).why, "no smooth surface has light to focus");
     settings = settings_of(8);
     settings.max_bounces = 1;
     EXPECT_EQ(decided(balls_under_lamp(), settings).why, "paths end before light has been focused");

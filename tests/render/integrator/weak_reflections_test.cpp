@@ -1,4 +1,5 @@
-// Window glass reflects the sun onto what is before it: light that rays cannot find, as the sun is small, and light paths carry.
+// Window glass, plastic and varnish reflect the sun onto what is before them: light that few rays find, as the sun is small, and light
+// paths carry.
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/film/found_by.h"
@@ -19,12 +20,24 @@ using namespace statistics;
 constexpr float real_sun = 0.53f * std::numbers::pi_v<float> / 180; // angular diameter
 constexpr float albedo = 0.6f;
 
-// A floor before an upright pane of this width, in a sun that is reflected onto it at 45 degrees; seen from above, 2 half metres of it.
-Scene terrace(float sun_angle, const Material& floor, float pane_width, float half) {
+// Reflect the sun, and no light from the floor.
+Material black_plastic(float roughness) {
+    Material m = plastic(roughness);
+    m.base_color = {0, 0, 0};
+    return m;
+}
+Material coated_black() {
+    Material m = lambert(0);
+    m.clearcoat = 1;
+    return m;
+}
+
+// A floor before an upright wall of this width, in a sun that is reflected onto it at 45 degrees; seen from above, 2 half metres of it.
+Scene terrace(float sun_angle, const Material& floor, const Material& wall, float wall_width, float half) {
     Scene scene;
     place(scene, floor_quad(5), floor);
-    const float x = pane_width / 2;
-    place(scene, quad({-x, 0, 0}, {x, 0, 0}, {x, 3, 0}, {-x, 3, 0}), window_glass());
+    const float x = wall_width / 2;
+    place(scene, quad({-x, 0, 0}, {x, 0, 0}, {x, 3, 0}, {-x, 3, 0}), wall);
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 10;
@@ -34,45 +47,57 @@ Scene terrace(float sun_angle, const Material& floor, float pane_width, float ha
     return scene;
 }
 
-// No more than one reflection: neither light from the floor by the pane, nor twice from the pane.
+// No more than one reflection: neither light from the floor by the wall, nor twice from the wall.
 RenderSettings one_reflection(int64_t spp) {
     RenderSettings settings = settings_for(16, 16, spp);
     settings.max_bounces = 2;
     return settings;
 }
 
-TEST(PaneReflections, OfTheSunHaveTheirClosedForm) {
+Measured image_of_sun(const Scene& scene) {
+    return image_regions(scene, one_reflection(16), {}, 32, 0, 16, 16,
+                         [](Renderer& renderer) { EXPECT_TRUE(feature_line(renderer, "light paths").used); })[0];
+}
+
+TEST(WeakReflections, OfTheSunHaveTheirClosedForm) {
     const double cosine = std::numbers::sqrt2 / 2, reflected = 0.04 + 0.96 * std::pow(1 - cosine, 5); // Schlick's Fresnel term
     const double of_sun = albedo / std::numbers::pi * 10 * cosine;
-    for (const float angle : {0.f, real_sun, 0.1f}) {
-        const Scene scene = terrace(angle, lambert(albedo), 3, 0.6f);
-        BlockMoments moments;
-        RenderSettings settings = one_reflection(16);
-        for (uint32_t seed = 0; seed < 32; ++seed) {
-            settings.seed = seed;
-            Renderer renderer({.threads = 2, .caustics = {}});
-            renderer.update(scene, settings);
-            ASSERT_TRUE(renderer.render(0, settings.spp));
-            EXPECT_TRUE(feature_line(renderer, "light paths").used) << angle;
-            moments.add(image_of(renderer).blocks(settings.width, settings.height));
+    for (const Material& wall : {window_glass(), black_plastic(0), coated_black()})
+        for (const float angle : {0.f, real_sun, 0.1f}) {
+            const Measured seen = image_of_sun(terrace(angle, lambert(albedo), wall, 3, 0.6f));
+            EXPECT_TRUE(is_mean(seen, of_sun * (1 + reflected), sidak(significance, 9), 1e-4 * of_sun)) << angle;
+            EXPECT_LT(seen.error.x, 0.025 * of_sun * reflected) << "the test sees a tenth of the reflection";
         }
-        const Measured seen = moments.measured()[0];
-        EXPECT_TRUE(is_mean(seen, of_sun * (1 + reflected), sidak(significance, 3), 1e-4 * of_sun)) << angle;
-        EXPECT_LT(seen.error.x, 0.025 * of_sun * reflected) << "the test sees a tenth of the reflection";
-    }
 }
 
 // The reflection of a real sun is that of a parallel one, on a floor with a lobe, too.
-TEST(PaneReflections, OfAParallelSunAndARealOneAgreeOnPlastic) {
+TEST(WeakReflections, OfAParallelSunAndARealOneAgreeOnPlastic) {
     const auto shown = [](float angle, uint32_t seed) {
-        return caustic_blocks(terrace(angle, plastic(0.6f), 3, 0.6f), one_reflection(16), {}, "light paths", true, 24, seed);
+        return caustic_blocks(terrace(angle, plastic(0.6f), window_glass(), 3, 0.6f), one_reflection(16), {}, "light paths", true, 24,
+                              seed);
     };
     EXPECT_TRUE(same_means(shown(real_sun, 1), shown(0, 100)));
 }
 
+// Narrow lobes, which NEE and rays find, too: the same image without light paths.
+TEST(WeakReflections, OfNarrowLobesAreThoseThatPathsOfTheCameraFind) {
+    Material coated = lambert(0.3f);
+    coated.clearcoat = 1;
+    coated.clearcoat_roughness = 0.15f;
+    for (const Material& wall : {plastic(0.1f), plastic(0.15f), coated}) {
+        const Scene scene = terrace(0.1f, plastic(0.6f), wall, 3, 0.6f);
+        const auto shown = [&](CausticStrategy caustics, int64_t spp, uint32_t seed) {
+            RenderSettings settings = settings_for(12, 12, spp);
+            settings.caustics = caustics;
+            return caustic_blocks(scene, settings, {.light_path_share = 1.f}, "light paths", caustics != CausticStrategy::off, 24, seed);
+        };
+        EXPECT_TRUE(same_means(shown(CausticStrategy::light_paths, 16, 1), shown(CausticStrategy::off, 256, 100)));
+    }
+}
+
 // NEE finds direct light without noise: light paths leave all of it to NEE, on surfaces that are not Lambertian, too.
-TEST(PaneReflections, LeaveDirectLightToTheCamerasPaths) {
-    const Scene scene = terrace(real_sun, plastic(0.6f), 0.5f, 1);
+TEST(WeakReflections, LeaveDirectLightToTheCamerasPaths) {
+    const Scene scene = terrace(real_sun, plastic(0.6f), window_glass(), 0.5f, 1);
     const auto rendered = [&](CausticStrategy caustics) {
         RenderSettings settings = one_reflection(8);
         settings.caustics = caustics;
@@ -87,7 +112,7 @@ TEST(PaneReflections, LeaveDirectLightToTheCamerasPaths) {
     const Frame with = rendered(CausticStrategy::light_paths), without = rendered(CausticStrategy::off);
     EXPECT_EQ(with.strategies[size_t(FoundBy::nee)], without.strategies[size_t(FoundBy::nee)]);
     const std::vector<Vec3>& splats = with.strategies[size_t(FoundBy::light_path)];
-    double beside = 0, before = 0; // the pane: rows of the image are of one x
+    double beside = 0, before = 0; // the wall: rows of the image are of one x
     for (size_t x = 0; x < 16; ++x) {
         for (size_t y = 0; y < 4; ++y) beside += double(splats[16 * y + x].x);
         for (size_t y = 7; y < 9; ++y) before += double(splats[16 * y + x].x);
@@ -96,9 +121,9 @@ TEST(PaneReflections, LeaveDirectLightToTheCamerasPaths) {
     EXPECT_GT(before, 0);
 }
 
-// A lamp of an area is found by rays, however the pane reflects it.
-TEST(PaneReflections, AreGivenLightPathsBySunsAndNotByLamps) {
-    Scene scene = terrace(real_sun, lambert(albedo), 3, 0.3f);
+// A lamp of an area is found by rays, however a weak reflector shows it.
+TEST(WeakReflections, AreGivenLightPathsBySunsAndNotByLamps) {
+    Scene scene = terrace(real_sun, lambert(albedo), window_glass(), 3, 0.3f);
     place(scene, ceiling_quad(0.5f, 2.5f), emitter(10));
     RenderScene compiled;
     compiled.update(expand_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1));
