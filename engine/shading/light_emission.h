@@ -15,8 +15,9 @@ namespace blush {
 
 struct EmissionTables {
     const float* chances =
-        nullptr;        // by light record: probabilities of the pairs with each caster, then with the scene; null: no light paths
-    int32_t lights = 0; // with records there; others emit no light paths
+        nullptr; // by light record: probabilities of the pairs with each caster, then with the scene; null: no light paths
+    const uint32_t* thresholds = nullptr; // that sample the pairs (core/distribution.h)
+    int32_t lights = 0;                   // with records there; others emit no light paths
     CausticCasterTables casters;
     CasterSphere scene{}; // contains all surfaces
     float paths = 0;      // light paths for one camera sample of every pixel

@@ -62,16 +62,13 @@ struct LinkTables {
     int32_t words = 0;
 };
 
-class PathEmitter;
-
 // Light vertices beside manifold sampling (render/integrator/manifold/light_vertices.h).
 struct LightVertexTables {
-    EmissionTables emission; // empty: none
-    const PathEmitter* emitter = nullptr;
-    float usual_ratio = 0; // geometric mean of LightVertexColumns::ratio, m^2
-    float walk_share = 1;  // factor of the density of manifold sampling in the weights: walks have more variance, and take longer
+    EmissionTables emission, emitter; // in the weights, and of the paths; empty: none
+    float usual_ratio = 0;            // geometric mean of LightVertexColumns::ratio, m^2
+    float walk_share = 1; // factor of the density of manifold sampling in the weights: walks have more variance, and take longer
 
-    bool empty() const { return !emitter; }
+    bool empty() const { return emitter.empty(); }
 };
 
 // Everything a kernel reads about the scene. Pointers stay valid until the next update of the RenderScene.
@@ -89,14 +86,15 @@ struct SceneTables {
     LightTables lights;
     EnvironmentTables environment;
     GuideTables guides;
-    CausticCasterTables casters;          // mirrors and glass; guides.casters are the same, or none if rays find no light by them
-    CausticCasterTables emission_casters; // towards which light paths may be emitted: with weak reflectors, for suns and lights without size
-    EmissionTables emission;              // null: no light paths
-    ManifoldTables manifolds;             // null: no manifold sampling
-    LightVertexTables light_vertices;     // only with manifold sampling
-    AdjointTables adjoint;                // empty: roulette reads the throughput alone
-    int32_t roulette_start = 0;           // bounce before which roulette ends no path from the camera, even if the settings let it
-    GroupTables groups;                   // null: no light mix
+    CausticCasterTables casters; // mirrors and glass; guides.casters are the same, or none if rays find no light by them
+    CausticCasterTables
+        emission_casters;             // towards which light paths may be emitted: with weak reflectors, for suns and lights without size
+    EmissionTables emission;          // null: no light paths
+    ManifoldTables manifolds;         // null: no manifold sampling
+    LightVertexTables light_vertices; // only with manifold sampling
+    AdjointTables adjoint;            // empty: roulette reads the throughput alone
+    int32_t roulette_start = 0;       // bounce before which roulette ends no path from the camera, even if the settings let it
+    GroupTables groups;               // null: no light mix
     LinkTables links;
     bool blends = false; // some part may be neither opaque nor clear: shadow rays carry its transmittance
     bool panes = false;  // some part is a wall that may transmit straight through (thin_transmission.h)

@@ -2,8 +2,7 @@
 
 #include "core/distribution.h"
 #include "core/math.h"
-#include "render/integrator/light_path_weights.h"
-#include "render/integrator/light_sampling.h"
+#include "render/integrator/light_path_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +18,6 @@ constexpr double min_facing = 0.05;
 
 // What weak reflectors reflect of light that falls on them, about: other casters get all of their light.
 constexpr double weak_share = 0.1;
-
-enum EmissionDimension : uint32_t { pair_dimension, point_dimension, direction_dimension };
 
 double flux_of_triangle(const LightRecord& light, const CasterSphere& caster) {
     const Vec3 normal = cross(light.edge1, light.edge2), center = light.position + (light.edge1 + light.edge2) * (1.f / 3);
@@ -69,51 +66,6 @@ double integral_of_environment(const SceneTables& tables) {
         if (s.pdf > 0) sum += double(luminance(s.radiance)) / double(s.pdf) / samples;
     }
     return sum;
-}
-
-// A point of the light, and a direction in which it emits.
-struct PointSample {
-    LightPoint<float> light;
-    float density; // of the position
-};
-PointSample sample_point(const SceneTables& tables, int32_t light, const Pair<float>& random) {
-    const LightRecord& record = tables.lights.lights[light];
-    LightPoint<float> p = begin_light_point<float>(tables.lights.lights, record.flags, {light, 1.f, 0.f}, true);
-    const float u = random.x(), v = random.y();
-    if (LightKind(record.kind) == LightKind::sphere) {
-        p.normal = sample_cone(2.f, u, v);
-        p.position = p.position + p.normal * record.radius;
-        const float size = max_component(abs(record.position)) + record.radius;
-        p.error = Vec3{1, 1, 1} * (size * gamma_bound(16));
-        return {p, 0.25f * inv_pi / (record.radius * record.radius)};
-    }
-    sample_triangle_light<all_features, float>(tables, record.flags, u, v, p);
-    p.delta = LightKind(record.kind) == LightKind::point;
-    sample_sun<all_features, float>(tables, u, v, p);
-    sample_environment_light<all_features, float>(tables, u, random.bits_y, true, p);
-    return {p, p.density};
-}
-
-// Orders rays to one caster: near numbers for rays that reach its sphere side by side (Morton order of 32^3 cells).
-uint32_t place_of(int32_t target, const CasterSphere& sphere, const Vec3& origin, const Vec3& direction) {
-    const float along = max(dot(sphere.center - origin, direction), sphere.radius);
-    const Vec3 at = (origin + direction * along - sphere.center) * (0.5f / sphere.radius);
-    const auto cell = [](float x) { return uint32_t(std::clamp((x + 0.5f) * 32, 0.f, 31.f)); };
-    const uint32_t x = cell(at.x), y = cell(at.y), z = cell(at.z);
-    auto place = uint32_t(target);
-    for (int bit = 4; bit >= 0; --bit) place = place << 3 | (x >> bit & 1u) << 2 | (y >> bit & 1u) << 1 | (z >> bit & 1u);
-    return place;
-}
-
-// A direction from the light to the caster; with `even`, or if the point is inside of the caster's sphere, with the density of the cosine.
-Vec3 sample_direction(const LightPoint<float>& p, const CasterSphere& caster, bool even, const Pair<float>& random) {
-    const Vec3 to = caster.center - p.position;
-    const float height = sphere_cone_height(dot(to, to), caster.radius);
-    if (!even && height > 0) return basis_around(normalize(to)).to_world(sample_cone(height, random.x(), random.y()));
-    if (p.delta) return sample_cone(2.f, random.x(), random.y());
-    const bool back = p.two_sided && LightKind(p.kind) == LightKind::triangle && random.x() >= 0.5f;
-    const float u = p.two_sided && LightKind(p.kind) == LightKind::triangle ? 2 * random.x() - float(back) : random.x();
-    return basis_around(back ? -p.normal : p.normal).to_world(sample_cosine_hemisphere(u, random.y()));
 }
 
 } // namespace
@@ -171,57 +123,17 @@ void LightPathEmission::set_chances(const std::vector<double>& flux) {
 
 EmissionTables LightPathEmission::tables(float paths) const {
     if (empty()) return {};
-    return {chances_.data(), lights_, casters_, scene_, paths, alone_};
+    return {chances_.data(), thresholds_.data(), lights_, casters_, scene_, paths, alone_};
 }
 
-EmittedPath LightPathEmission::emit(const SceneTables& tables, const Sampler<float>& sampler) const {
-    return emit_by(tables, {sampler.pair(pair_dimension), sampler.pair(point_dimension), sampler.pair(direction_dimension)}, sampler.index);
+EmittedPath LightPathEmission::emit(const SceneTables& scene, const Sampler<float>& sampler) const {
+    const EmissionRandom<float> random = emission_random<float>(sampler);
+    return emit_by(scene, {random.pair, random.point, random.direction}, sampler.index);
 }
 
-void LightPathEmission::emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
-                                   std::vector<EmittedPath>& emitted) const {
-    emitted.clear();
-    for (int k = 0; k < count; ++k) {
-        EmittedPath path = emit(scene, {keys[k], indices[k]});
-        path.index = uint32_t(k);
-        if (path.density > 0) emitted.push_back(path);
-    }
-    std::ranges::stable_sort(emitted, {}, &EmittedPath::place);
-}
-
-EmittedPath LightPathEmission::emit_by(const SceneTables& tables, const Random& numbers, uint32_t index) const {
-    const auto pair = sample_discrete<float>(thresholds_.data(), 0, int(thresholds_.size()), numbers.pair.bits_x);
-    const int32_t columns = casters_.count + 1, light = pair.index / columns, target = pair.index % columns;
-    const bool even = target == casters_.count;
-    const CasterSphere& sphere = even ? scene_ : casters_.spheres[target];
-    const auto [p, density] = sample_point(tables, light, numbers.point);
-    const Pair<float>& random = numbers.direction;
-    EmittedPath path;
+EmittedPath LightPathEmission::emit_by(const SceneTables& scene, const Random& random, uint32_t index) const {
+    EmittedPath path = emitted_in_lane<float>(emit_path<float>(scene, tables(1), {random.pair, random.point, random.direction}), 0);
     path.index = index;
-    Vec3 wi;
-    if (p.infinite) {
-        wi = p.position;
-        const Vec2T<float> disk = sample_disk(random.x(), random.y());
-        path.origin = sphere.center + basis_around(wi).to_world(Vec3{disk.x, disk.y, 0}) * sphere.radius;
-        // Begins before the scene, as far as it has to.
-        const Vec3 to_end = scene_.center - path.origin;
-        path.origin = path.origin + wi * (dot(to_end, wi) + 1.01f * scene_.radius);
-    } else {
-        wi = -sample_direction(p, sphere, even, random);
-        path.origin = p.delta ? p.position : offset_origin(p.position, p.error, p.normal, dot(wi, p.normal) < 0);
-    }
-    path.direction = -wi;
-    path.place = place_of(target, sphere, path.origin, path.direction);
-    path.light_position = p.infinite ? wi : p.position;
-    path.light_normal = p.normal;
-    path.light = light;
-    path.infinite = p.infinite;
-    path.delta = p.delta;
-    const auto point = emission_point<all_features, float>(tables, light, p.infinite ? path.origin : p.position, p.normal, wi, true);
-    path.density = emission_density<float>(this->tables(1), point, true);
-    const Vec3 radiance = incident_light<all_features, float>(tables, p, wi, 1.f).radiance;
-    if (path.density > 0 && std::isfinite(path.density)) path.flux = radiance * (1 / path.density);
-    if (!(luminance(path.flux) > 0) || !std::isfinite(luminance(path.flux))) path.density = 0;
     return path;
 }
 
@@ -233,12 +145,15 @@ void trace_light_path_tile(const KernelContext& context, const Kernel& kernel, c
     const int64_t index = (tile.pass >> 1) * tile.paths_per_pass + tile.first;
     columns.key = pcg_hash(randomisation(context.seed ^ 0x11687u, uint32_t(tile.pass & 1)) + uint32_t(index >> place_shift));
     const auto first_index = uint32_t(index & ((int64_t(1) << place_shift) - 1));
-    columns.emitted.clear();
     columns.splats.clear();
     columns.moments.clear();
-    for (int k = 0; k < tile.count; ++k) columns.emitted.push_back(emission.emit(*context.scene, {columns.key, first_index + uint32_t(k)}));
-    // Paths of one light to one place are traced together: rays of a packet then meet the same triangles.
-    std::ranges::stable_sort(columns.emitted, {}, &EmittedPath::place);
+    PathQueue& samplers = scratch.paths[0];
+    for (int k = 0; k < tile.count; ++k) {
+        samplers.key[k] = columns.key;
+        samplers.index[k] = first_index + uint32_t(k);
+    }
+    kernel.emit_light_paths(*context.scene, emission.tables(1), samplers.key, samplers.index, tile.count, columns.emitted);
+    for (EmittedPath& path : columns.emitted) path.index += first_index;
     kernel.trace_light_paths(context, scratch);
 }
 

@@ -12,7 +12,7 @@
 namespace blush {
 
 // Pairs of lights and casters, for one image. Sampled with the density of emission_density().
-class LightPathEmission final : public PathEmitter {
+class LightPathEmission {
 public:
     // No more pairs: the table would be slower than it is useful.
     static constexpr int64_t max_pairs = 1 << 20;
@@ -36,11 +36,9 @@ public:
         Pair<float> pair, point, direction;
     };
     // The emission of a path; `tables` as above, in the scene's. `index`: kept in the path.
-    EmittedPath emit_by(const SceneTables& tables, const Random& random, uint32_t index = 0) const;
+    EmittedPath emit_by(const SceneTables& scene, const Random& random, uint32_t index = 0) const;
     // With the first pairs of the sampler (light_paths.h).
-    EmittedPath emit(const SceneTables& tables, const Sampler<float>& sampler) const;
-    void emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
-                    std::vector<EmittedPath>& emitted) const override;
+    EmittedPath emit(const SceneTables& scene, const Sampler<float>& sampler) const;
     size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }
 
 private:

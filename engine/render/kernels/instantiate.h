@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/integrator/delta_chains.h"
+#include "render/integrator/light_path_sampling.h"
 #include "render/integrator/light_paths.h"
 #include "render/integrator/wavefront.h"
 #include "render/kernels/feature_sets.h"
@@ -17,7 +18,10 @@ template <const auto& sets> constexpr Features chain_features(Features needed) {
 template <Features S, class F, const auto& sets> constexpr Kernel make_kernel(std::string_view isa, std::string_view name) {
     constexpr Features of_chains = chain_features<sets>(S.without(Feature::light_paths));
     Kernel kernel{isa, name, S, &render_tile<S, F>, &trace_delta_chains<of_chains, F>};
-    if constexpr (S.has(Feature::light_paths)) kernel.trace_light_paths = &trace_light_paths<S, F>;
+    if constexpr (S.has(Feature::light_paths)) {
+        kernel.trace_light_paths = &trace_light_paths<S, F>;
+        kernel.emit_light_paths = &emit_light_paths<F>;
+    }
     return kernel;
 }
 template <class F, const auto& sets, size_t... I>

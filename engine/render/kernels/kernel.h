@@ -127,6 +127,9 @@ struct KernelContext {
 using TileFunction = void (*)(const KernelContext&, const TileJob&, TileScratch&);
 // Traces the paths of TileScratch::light_paths, and leaves their splats there.
 using LightPathFunction = void (*)(const KernelContext&, TileScratch&);
+// emit_light_paths() of render/integrator/light_path_sampling.h.
+using EmitFunction = void (*)(const SceneTables&, const EmissionTables&, const uint32_t* keys, const uint32_t* indices, int count,
+                              std::vector<EmittedPath>&);
 
 struct Kernel {
     std::string_view isa;  // "scalar", "v2", "v3", "v4": x86-64 micro-architecture levels
@@ -134,7 +137,8 @@ struct Kernel {
     Features features;
     TileFunction render = nullptr;
     TileFunction trace_chains = nullptr;           // the emission at the end of delta chains; or ChainColumns::sights
-    LightPathFunction trace_light_paths = nullptr; // null without Feature::light_paths
+    LightPathFunction trace_light_paths = nullptr; // null without Feature::light_paths,
+    EmitFunction emit_light_paths = nullptr;       // so is this
 };
 
 std::span<const Kernel> kernels_scalar();

@@ -19,20 +19,7 @@ struct EmittedPath {
     float density = 0;                        // emission_density(); 0: the path does not exist
     int32_t light = 0;                        // record
     uint32_t index = 0;                       // of the sampler
-    uint32_t place = 0;                       // near each other where rays are
     bool infinite = false, delta = false;     // delta: no ray can hit the light
-};
-
-struct SceneTables;
-
-// Emits light paths for kernels: LightPathEmission.
-class PathEmitter {
-public:
-    virtual ~PathEmitter() = default;
-    // Replaces `emitted` by the paths of the samplers keys[k], indices[k], k < count. EmittedPath::index is k; paths that do not exist are
-    // left out. Sorted by place: rays of a packet then meet the same triangles.
-    virtual void emit_paths(const SceneTables& scene, const uint32_t* keys, const uint32_t* indices, int count,
-                            std::vector<EmittedPath>& emitted) const = 0;
 };
 
 struct LightPathColumns {

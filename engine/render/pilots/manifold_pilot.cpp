@@ -118,7 +118,7 @@ bool measure_light_vertices(KernelContext context, const PilotImage& image, std:
 
 LightVertexTables ManifoldPilot::light_vertices() const {
     if (emission.empty()) return {};
-    return {emission.tables(1), &emission, usual_ratio, walk_share};
+    return {emission.tables(1), emission.tables(1), usual_ratio, walk_share};
 }
 
 std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const CausticPhotons& photons, const CasterSphere& scene_sphere,

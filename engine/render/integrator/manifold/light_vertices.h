@@ -12,6 +12,7 @@
 // by the same code. Where k a d is usually small, few vertices begin walks (Russian roulette).
 #pragma once
 
+#include "render/integrator/light_path_sampling.h"
 #include "render/integrator/light_paths.h"
 #include "render/integrator/manifold/manifold_sampling.h"
 
@@ -34,7 +35,7 @@ void emit_light_vertices(const SceneTables& scene, const PathQueue& camera, Colu
         store(keys + k, load<UInt<F>>(camera.key + k) ^ light_vertex_salt);
         store(c.chain + k, Int<F>(0));
     }
-    scene.light_vertices.emitter->emit_paths(scene, keys, camera.index, camera.size, c.emitted);
+    emit_light_paths<F>(scene, scene.light_vertices.emitter, keys, camera.index, camera.size, c.emitted);
     q.size = 0;
     for (const EmittedPath& e : c.emitted) {
         const auto slot = int32_t(e.index);

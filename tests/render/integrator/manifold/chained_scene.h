@@ -41,7 +41,7 @@ public:
     }
     SceneTables with_vertices(float ratio) const {
         SceneTables t = tables;
-        t.light_vertices = {emission.tables(1), &emission, ratio, 0.1f};
+        t.light_vertices = {emission.tables(1), emission.tables(1), ratio, 0.1f};
         return t;
     }
     // Radiance of the samples of an image; with `strategies`, of each that finds it.
