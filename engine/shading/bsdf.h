@@ -100,6 +100,17 @@ template <Features S, class F> BsdfValue<F> eval(const Bsdf<F>& b, const Vec<F>&
     return value;
 }
 
+// Share of the density `pdf` of eval() that lobes other than the Lambertian ones and sheen have; 0 on a Lambertian surface.
+template <Features S, class F> F facet_share(const Bsdf<F>& b, const Vec<F>& wi_surface, const F& pdf) {
+    const Vec<F> wi = flip_z(b.flipped, wi_surface);
+    F wide = cosine_hemisphere_pdf(wi.z);
+    if constexpr (S.has(Feature::diffuse_transmission)) wide = wide * (1.f - b.p_through) + cosine_hemisphere_pdf(F(-wi.z)) * b.p_through;
+    wide = wide * b.p_diffuse;
+    if constexpr (has_layers(S)) wide = wide * b.p_base;
+    if constexpr (S.has(Feature::sheen)) wide = wide + select(wi.z > F(0.f), b.sheen.probability * (0.5f * inv_pi), F(0.f));
+    return clamp01(F(1.f - wide / max(pdf, F(1e-30f))));
+}
+
 // As draw_base; choice first selects the layer: coat, then sheen, then base.
 template <Features S, class F> BsdfSample<F> draw(const Bsdf<F>& b, const Vec<F>& wo, const F& u, const F& v, const F& choice) {
     if constexpr (!has_layers(S)) return draw_base<S>(b, wo, u, v, choice);

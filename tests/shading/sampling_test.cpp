@@ -136,6 +136,26 @@ TEST(Sampling, WeightIsEvalOverPdfAndBounded) {
         }
 }
 
+// Its mean over samples is the probability of the lobes that it counts, as those that it does not count have no invalid samples.
+TEST(Sampling, FacetShareIsThatOfTheLobesThatAreNotWide) {
+    Random random(7);
+    const std::vector<Material> all = all_materials();
+    int64_t tests = 0;
+    for (const Material& m : all) tests += int64_t(viewers(m.params).size());
+    for (const Material& m : all)
+        for (const Viewer& v : viewers(m.params)) {
+            const Vec3 wo = v.wo();
+            if (!is_resolved(m.params, wo)) continue;
+            const Bsdf<float> b = make_bsdf<all_features>(m.params, wo, nullptr);
+            const Moments shares = estimate(10'000, [&] {
+                const BsdfSample<float> s = sample_next<all_features>(b, wo, random);
+                return s.valid && !s.delta ? facet_share<all_features>(b, s.wi, s.pdf) : 1.f;
+            });
+            const double wide = double(b.p_base) * double(b.p_diffuse) + double(b.sheen.probability);
+            EXPECT_TRUE(z_test_in_range(shares, 0, 1, 1 - wide, sidak(significance, tests))) << describe(m, v);
+        }
+}
+
 // For all light directions, including exactly grazing and exactly backward ones.
 TEST(Sampling, EvalIsFiniteAndNotNegative) {
     Random random(3);

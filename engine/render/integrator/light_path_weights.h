@@ -1,6 +1,6 @@
 // MIS with light paths: paths from lights whose vertices are connected to the camera (t = 1; Veach 1997, section 10.2). They carry only
-// light whose first surface is not Lambertian, and is not the one that the camera sees: what is lit through glass and by mirrors. The
-// others are better found by NEE.
+// light that leaves its first surface by other lobes than Lambertian ones and sheen (facet_share), and only if the camera does not see this
+// surface: light by glass, mirrors and glaze. NEE finds the rest better.
 //
 // A path with vertices x1 (seen by the camera) ... xk and the light y has the densities, with p' = pdf / |cos| over projected solid angle,
 //
@@ -9,10 +9,11 @@
 //     light path:              N p'(y) p'rev(xk) ... p'rev(x2)
 //
 // p(x1) is the density of camera rays in pixels per m2, N the number of light paths for one camera sample of every pixel, and p'(y) that of
-// emission (light_emission.h). So along a camera path the ratio N p'rev(x2) ... p'rev(xi) / (p(x1) p'(x1) ... p'(xi)) is kept, one factor
-// for each vertex, and along a light path the inverse. Delta lobes have the factor 1 in both directions; a light path cannot be
-// connected to the camera there (Georgiev 2012, "Implementing Vertex Connection and Merging", has these quantities for all connections).
-// Probabilities of Russian roulette are left out of all densities: weights add up to 1 for any densities that all strategies agree on.
+// emission (light_emission.h); p'rev(xk), of the first surface, is that of the lobes named above. So along a camera path the ratio N
+// p'rev(x2) ... p'rev(xi) / (p(x1) p'(x1) ... p'(xi)) is kept, one factor for each vertex, and along a light path the inverse. Delta lobes
+// have the factor 1 in both directions; a light path cannot be connected to the camera there (Georgiev 2012, "Implementing Vertex
+// Connection and Merging", has these quantities for all connections). Probabilities of Russian roulette are left out of all densities:
+// weights add up to 1 for any densities that all strategies agree on.
 #pragma once
 
 #include "render/integrator/light_sampling.h"
@@ -44,6 +45,7 @@ template <class F> F camera_density(const CameraRecord& camera, const EstimatorS
 template <class F> struct ViewedPoint {
     BsdfValue<F> value; // f |cos(wi)|, and the pdf of wi; 0 where shading and geometric normal disagree about the side of wi
     F pdf;              // of wi with path guiding
+    F facet_share;      // of value.pdf
     Mask<F> behind;     // ShadingFrame::behind
 };
 // In the lanes of `active`. `known`: the BSDF as seen from anywhere.
@@ -61,11 +63,13 @@ template <Features S, class F>
     p.behind = frame.behind;
     p.value.pdf = cosine_hemisphere_pdf(cosine);
     p.value.f_cos = known.diffuse * p.value.pdf;
+    p.facet_share = F(0.f);
     if (any(active && !lambertian)) {
         const Bsdf<F> bsdf = make_bsdf<S, F>(material.bsdf, frame.wo, energy);
         const BsdfValue<F> value = eval<S, F>(bsdf, frame.wo, frame.frame.to_local(wi));
         p.value.f_cos = select<F>(lambertian, p.value.f_cos, value.f_cos);
         p.value.pdf = select(lambertian, p.value.pdf, value.pdf);
+        p.facet_share = select(lambertian, F(0.f), facet_share<S, F>(bsdf, frame.frame.to_local(wi), value.pdf));
     }
     const Mask<F> same_side = (cosine > F(0.f)) == (dot(wi, frame.ng) > F(0.f));
     p.value.f_cos = select<F>(same_side, p.value.f_cos, splat<F>(0.f));

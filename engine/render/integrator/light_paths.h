@@ -181,10 +181,16 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     const Mask<F> dense = v.scatters && !s.delta;
     Mask<F> begins_chains = Mask<F>(false); // of the camera,
     F chain_pdf = F(0.f);                   // whose direction has this density
+    Mask<F> shared = Mask<F>(true);         // at the first surface: with NEE (facet_share)
     if (any(dense)) {
         const ViewedPoint<F> view =
             view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.side.wo, true, dense);
-        const F seen = view.pdf / v.cosine, forward = s.pdf / cosine;
+        F share = F(1.f);
+        if (bounce == 0 && !context.scene->emission.empty()) {
+            share = facet_share<S, F>(v.bsdf, s.wi, s.pdf);
+            shared = !dense || sampler.pair(dimension + light_lens_dimension).x() < share; // its lens is not sampled
+        }
+        const F seen = view.pdf / v.cosine, forward = share * s.pdf / cosine;
         const F factor = seen / max(forward, F(1e-30f));
         beta = view.value.f_cos * (1.f / (v.cosine * max(forward, F(1e-30f))));
         begins_chains = dense && only_reflects<S, F>(v.bsdf, v.material.bsdf) && !view.behind;
@@ -195,7 +201,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
     beta = select<F>(dense, beta, delta_light_weight<S, F>(v, s, cosine, lobe)) * v.beta;
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
-    Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z));
+    Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z)) && shared;
     if (bounce == 0 && context.scene->emission.alone) continues = continues && s.delta; // else NEE finds the light
     Int<F> chain = Int<F>(0);
     if (samples_manifolds<S>(*context.scene)) {

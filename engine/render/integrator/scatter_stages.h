@@ -255,18 +255,22 @@ template <class F> F ratio_at_vertex(const SceneTables& scene, const EstimatorSe
     return F(scene.emission.paths) / (camera_density<F>(scene.camera, settings, -wo, t) * clamped_cosine<F>(p.shading.ng, wo));
 }
 
-// The density over projected solid angle with which a light path that comes along -wi goes on to wo; 1 at the first vertex, which it
-// connects to the camera.
-template <Features S, class F> F reverse_density(const SceneTables& scene, const EnergyTable* energy, const ShadingPoint<F>& p,
-                                                 const MaterialPoint<F>& material, const Vec<F>& wo, const Vec<F>& wi, int bounce,
-                                                 const Mask<F>& active) {
-    if (bounce == 0) return F(1.f);
-    return view_point<S, F>(scene, energy, p.surface, material, p.bsdf, wi, wo, false, active).value.pdf /
-           clamped_cosine<F>(p.shading.ng, wo);
+// The density over projected solid angle with which a light path that comes along -wi goes on to wo.
+template <class F> struct ReverseDensity {
+    F density;    // if it comes from another surface; 1 at the first vertex, which it connects to the camera
+    F from_light; // if it comes from its light; 0 at the first vertex
+};
+template <Features S, class F> ReverseDensity<F> reverse_density(const SceneTables& scene, const EnergyTable* energy,
+                                                                 const ShadingPoint<F>& p, const MaterialPoint<F>& material,
+                                                                 const Vec<F>& wo, const Vec<F>& wi, int bounce, const Mask<F>& active) {
+    if (bounce == 0) return {F(1.f), F(0.f)};
+    const ViewedPoint<F> view = view_point<S, F>(scene, energy, p.surface, material, p.bsdf, wi, wo, false, active);
+    const F density = view.value.pdf / clamped_cosine<F>(p.shading.ng, wo);
+    return {density, density * view.facet_share};
 }
 
-// Lowers the weight of NEE by the density of light paths, where they carry its light: behind the first vertex of the camera's path, on
-// surfaces that are not Lambertian.
+// Lowers the weight of NEE by the density of light paths, where they carry its light: behind the first vertex of the camera's path, by
+// lobes that are not Lambertian.
 template <Features S, class F>
 [[gnu::noinline, gnu::flatten]] void weigh_direct(const SceneTables& scene, const EstimatorSettings& settings, const ShadingPoint<F>& p,
                                                   const MaterialPoint<F>& material, const Vec<F>& wo, const F& ratio, int bounce,
@@ -283,7 +287,7 @@ template <Features S, class F>
     const F emitted = emission_density<F>(scene.emission, at, shared);
     // The pdf of NEE over projected solid angle; a point light has a probability, which counts per area that faces it.
     const F nee = out.weights.light_pdf * select(point, dot(to, to), F(1.f)) / clamped_cosine<F>(p.shading.ng, wi);
-    const F reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, wi, bounce, shared);
+    const F reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, wi, bounce, shared).from_light;
     const F beside = weight_beside(out.weights.light, F(ratio * reverse * emitted / nee));
     out.direct = select<F>(shared, out.direct * (beside / out.weights.light), out.direct);
     out.weights.light = select(shared, beside, out.weights.light);
@@ -296,13 +300,15 @@ template <Features S, class F>
                                                      const F& ratio, int bounce, Path<F>& next) {
     const Mask<F> dense = p.scatters && !s.bsdf.delta;
     F factor = F(bounce == 0 ? 0.f : 1.f); // a light path is not connected to the camera at a delta lobe
+    F of_emission = factor;
     if (any(dense)) {
-        const F forward = s.bsdf.pdf / clamped_cosine<F>(p.shading.ng, s.wi);
-        const F reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, s.wi, bounce, dense);
-        factor = select(dense && forward > F(0.f), reverse / max(forward, F(1e-30f)), select(dense, F(0.f), factor));
+        const F forward = s.bsdf.pdf / clamped_cosine<F>(p.shading.ng, s.wi), inverse = 1.f / max(forward, F(1e-30f));
+        const ReverseDensity<F> reverse = reverse_density<S, F>(scene, settings.energy, p, material, wo, s.wi, bounce, dense);
+        factor = select(dense, select(forward > F(0.f), reverse.density * inverse, F(0.f)), factor);
+        of_emission = select(dense, select(forward > F(0.f), reverse.from_light * inverse, F(0.f)), of_emission);
     }
     next.light_ratio = min(F(ratio * factor), F(1e30f));
-    next.emission_ratio = select(p.lambertian || Mask<F>(bounce == 0), F(0.f), next.light_ratio);
+    next.emission_ratio = min(F(ratio * of_emission), F(1e30f));
 }
 
 } // namespace blush::inline BLUSH_ISA

@@ -47,7 +47,7 @@ void add_light_tile(const LightPathColumns& columns, double paths, Measured& m) 
         if (const double l = double(luminance(s.radiance)); std::isfinite(l)) m.mean[size_t(s.pixel)] += l * paths / emitted;
     for (const auto& moment : columns.moments) {
         const double squared = double(moment.amount) * double(moment.amount) * paths / emitted;
-        if (!std::isfinite(squared)) continue;
+        if (!std::isfinite(squared) || moment.others == 0) continue; // add_alone_tile() has what they alone find
         const double others = std::max(double(moment.others), least_ratio);
         m.moment[0][size_t(moment.pixel)] += squared / others;
         for (size_t k = 0; k < shares.size(); ++k) m.moment[k + 1][size_t(moment.pixel)] += squared / (others + double(shares[k]));
@@ -56,8 +56,6 @@ void add_light_tile(const LightPathColumns& columns, double paths, Measured& m) 
 
 void add_alone_tile(const LightPathColumns& columns, double paths, Measured& m) {
     constexpr double emitted = double(light_tiles) * tile_capacity;
-    for (const Splat& s : columns.splats)
-        if (const double l = double(luminance(s.radiance)); std::isfinite(l)) m.mean[size_t(s.pixel)] += l * paths / emitted;
     for (const auto& moment : columns.moments)
         if (const double squared = double(moment.amount) * double(moment.amount); std::isfinite(squared))
             m.alone[size_t(moment.pixel)] += squared * paths / emitted;
@@ -166,10 +164,9 @@ template <class Add> bool trace_light_tiles(const TileRunner& runner, KernelCont
 std::optional<LightPathPilot> measure_light_paths(KernelContext context, const CasterSphere& scene_sphere, const Kernel& kernel,
                                                   const std::optional<RefinedEmission>& refined, const Workers& workers,
                                                   std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
-    const LightTables& lights = context.scene->lights;
-    LightPathEmission sized(*context.scene, scene_sphere, [&](int32_t light) { return !has_zero_size(lights.lights[light]); });
-    LightPathPilot pilot{.emission = {}, .zero_size = LightPathEmission::of_zero_size_lights(*context.scene, scene_sphere)};
-    if (sized.empty() && pilot.zero_size.empty()) return pilot;
+    LightPathPilot pilot{.emission = LightPathEmission(*context.scene, scene_sphere),
+                         .zero_size = LightPathEmission::of_zero_size_lights(*context.scene, scene_sphere)};
+    if (pilot.emission.empty()) return pilot;
     const PilotImage image = pilot_image(context.settings, pilot_pixels);
     const int width = image.width, height = image.height;
     const auto paths = float(width) * float(height);
@@ -184,9 +181,9 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
         return trace_light_tiles(runner, context, kernel, emission, paths, work,
                                  [&](const LightPathColumns& c) { add_tile(c, double(paths), m); });
     };
-    if (!trace(sized, m.light_work, add_light_tile) || !trace(pilot.zero_size, m.alone_work, add_alone_tile)) return std::nullopt;
+    if (!trace(pilot.emission, m.light_work, add_light_tile) || !trace(pilot.zero_size, m.alone_work, add_alone_tile)) return std::nullopt;
     SceneTables tables = *context.scene;
-    tables.emission = sized.tables(paths);
+    tables.emission = pilot.emission.tables(paths);
     context.scene = &tables;
     context.seed = camera_seed;
     const std::vector<TileJob>& tiles = image.tiles;
@@ -219,12 +216,7 @@ std::optional<LightPathPilot> measure_light_paths(KernelContext context, const C
             pilot.figures = figures;
         }
     }
-    if (pilot.zero_size.empty()) {
-        pilot.emission = std::move(sized);
-        return pilot;
-    }
-    pilot.emission = LightPathEmission(*context.scene, scene_sphere);
-    pilot.zero_size_share = share_alone(m, chosen);
+    if (!pilot.zero_size.empty()) pilot.zero_size_share = share_alone(m, chosen);
     return pilot;
 }
 

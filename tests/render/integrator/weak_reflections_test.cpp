@@ -95,6 +95,21 @@ TEST(WeakReflections, OfNarrowLobesAreThoseThatPathsOfTheCameraFind) {
     }
 }
 
+// NEE finds a parallel sun by lobes with a density, but rarely where they are narrow: the pilot combines both strategies.
+TEST(WeakReflections, OfAParallelSunByNarrowLobesAreFoundByLightPaths) {
+    for (const Material& wall : {plastic(0.1f), metal(0.1f)}) {
+        const Scene scene = terrace(0, lambert(albedo), wall, 3, 0.6f);
+        const auto shown = [&](CausticStrategy caustics, int64_t spp, uint32_t seed) {
+            RenderSettings settings = settings_for(12, 12, spp);
+            settings.caustics = caustics;
+            return caustic_blocks(scene, settings, {}, "light paths", caustics != CausticStrategy::off, 24, seed);
+        };
+        const auto with = shown(CausticStrategy::light_paths, 64, 1), without = shown(CausticStrategy::off, 256, 100);
+        EXPECT_TRUE(same_means(with, without));
+        for (size_t k = 0; k < with.size(); ++k) EXPECT_LT(with[k].error.x, without[k].error.x) << "with a quarter of the samples";
+    }
+}
+
 // NEE finds direct light without noise: light paths leave all of it to NEE, on surfaces that are not Lambertian, too.
 TEST(WeakReflections, LeaveDirectLightToTheCamerasPaths) {
     const Scene scene = terrace(real_sun, plastic(0.6f), window_glass(), 0.5f, 1);
