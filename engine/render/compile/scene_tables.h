@@ -86,15 +86,14 @@ struct SceneTables {
     LightTables lights;
     EnvironmentTables environment;
     GuideTables guides;
-    CausticCasterTables casters; // mirrors and glass; guides.casters are the same, or none if rays find no light by them
-    CausticCasterTables
-        emission_casters;             // towards which light paths may be emitted: with weak reflectors, for suns and lights without size
-    EmissionTables emission;          // null: no light paths
-    ManifoldTables manifolds;         // null: no manifold sampling
-    LightVertexTables light_vertices; // only with manifold sampling
-    AdjointTables adjoint;            // empty: roulette reads the throughput alone
-    int32_t roulette_start = 0;       // bounce before which roulette ends no path from the camera, even if the settings let it
-    GroupTables groups;               // null: no light mix
+    CausticCasterTables casters;          // mirrors and glass; guides.casters are the same, or none if rays find no light by them
+    CausticCasterTables emission_casters; // light paths are emitted towards these: with weak reflectors, for suns and lights without size
+    EmissionTables emission;              // null: no light paths
+    ManifoldTables manifolds;             // null: no manifold sampling
+    LightVertexTables light_vertices;     // only with manifold sampling
+    AdjointTables adjoint;                // empty: roulette reads the throughput alone
+    int32_t roulette_start = 0;           // bounce before which roulette ends no path from the camera, even if the settings let it
+    GroupTables groups;                   // null: no light mix
     LinkTables links;
     bool blends = false; // some part may be neither opaque nor clear: shadow rays carry its transmittance
     bool panes = false;  // some part is a wall that may transmit straight through (thin_transmission.h)

@@ -42,8 +42,7 @@ bool reflects_weakly(const Material& m) {
 
 const char* why_no_guides(const CausticCasterTables& guides, const CausticCasterTables& all) {
     if (guides.count > 0) return nullptr;
-    return all.count > 0 ? "no mirror or solid glass has light to focus that rays can hit"
-                         : "no smooth surface has light to focus";
+    return all.count > 0 ? "no mirror or solid glass has light to focus that rays can hit" : "no smooth surface has light to focus";
 }
 
 GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
