@@ -70,14 +70,17 @@ void RenderScene::aim(std::span<const Vec3> gains) {
 }
 
 // Strategy::bsdf and CausticStrategy::off exclude casters. Diffuse surfaces sample directions towards them only if rays can find light
-// there. Weak reflectors are casters for suns and lights without size alone: of other lights, rays find the reflection.
+// there. Weak reflectors are casters for small lights alone: of meshes and even skies, rays find the reflection.
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
     const bool can_be_hit = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty() || narrow_sky;
     const bool zero_size = lights_.point_lights > 0 || lights_.sun_lights > int64_t(lights_.suns.size());
     const bool allowed = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
+    const bool small = zero_size || lights_.sphere_lights > 0 || !lights_.suns.empty();
+    const bool weak = allowed && !used_.weak_casters.empty();
+    const bool sun_in_sky = weak && !small && tables_.lights.samples_environment && measure_light(tables_.environment).has_suns;
     const CausticCasterTable::Wanted wanted{.mirrors_and_glass = allowed && (can_be_hit || zero_size),
-                                            .weak_reflectors = allowed && (zero_size || !lights_.suns.empty())};
+                                            .weak_reflectors = weak && (small || sun_in_sky)};
     if (changed_.objects || changed_.origin || changed_.casters || wanted != wanted_casters_) {
         wanted_casters_ = wanted;
         caustic_casters_.build(scene, objects_, extent_.origin, wanted);

@@ -87,7 +87,7 @@ struct SceneTables {
     EnvironmentTables environment;
     GuideTables guides;
     CausticCasterTables casters;          // mirrors and glass; guides.casters are the same, or none if rays find no light by them
-    CausticCasterTables emission_casters; // light paths are emitted towards these: with weak reflectors, for suns and lights without size
+    CausticCasterTables emission_casters; // light paths are emitted towards these: with weak reflectors, for small lights
     EmissionTables emission;              // null: no light paths
     ManifoldTables manifolds;             // null: no manifold sampling
     LightVertexTables light_vertices;     // only with manifold sampling

@@ -3,6 +3,7 @@
 #include "core/distribution.h"
 #include "core/math.h"
 #include "render/integrator/light_path_sampling.h"
+#include "render/lights/environment_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,19 +54,13 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
 }
 
 // Of other lights, rays find the reflection by weak reflectors.
-bool is_emitted_to_weak(const LightRecord& light) { return has_zero_size(light) || LightKind(light.kind) == LightKind::sun; }
+bool is_emitted_to_weak(const LightRecord& light, const EnvironmentLight& sky) {
+    const auto kind = LightKind(light.kind);
+    return kind != LightKind::triangle && (kind != LightKind::environment || sky.has_suns);
+}
 
-// Integral of the environment's radiance over all directions; luminance.
-double integral_of_environment(const SceneTables& tables) {
-    if (!tables.lights.samples_environment) return 0;
-    constexpr int samples = 256;
-    double sum = 0;
-    for (uint32_t i = 0; i < samples; ++i) {
-        const Pair<float> random = Sampler<float>{pcg_hash(0x5c1e9u), i}.pair(0);
-        const EnvironmentSample<float> s = sample_environment<float>(tables.environment, random.x(), random.bits_y);
-        if (s.pdf > 0) sum += double(luminance(s.radiance)) / double(s.pdf) / samples;
-    }
-    return sum;
+EnvironmentLight light_of_environment(const SceneTables& tables) {
+    return tables.lights.samples_environment ? measure_light(tables.environment) : EnvironmentLight{};
 }
 
 } // namespace
@@ -74,7 +69,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
     : casters_(tables.emission_casters), scene_(scene), lights_(tables.lights.count) {
     const size_t columns = size_t(casters_.count) + 1;
     if (casters_.count == 0 || lights_ == 0 || int64_t(lights_) * int64_t(columns) > max_pairs) return;
-    const double sky = integral_of_environment(tables);
+    const EnvironmentLight sky = light_of_environment(tables);
     std::vector<double> flux(size_t(lights_) * columns);
     double aimed = 0, all = 0;
     for (size_t i = 0; i < size_t(lights_); ++i) {
@@ -82,10 +77,10 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
         const LightRecord& light = tables.lights.lights[i];
         for (size_t k = 0; k < columns; ++k) {
             double& f = flux[i * columns + k];
-            f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky);
+            f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky.integral);
             if (!std::isfinite(f)) f = 0;
             const bool is_weak = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
-            if (is_weak) f *= is_emitted_to_weak(light) ? weak_share : 0;
+            if (is_weak) f *= is_emitted_to_weak(light, sky) ? weak_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }
@@ -104,7 +99,7 @@ LightPathEmission LightPathEmission::of_all_lights(const SceneTables& tables, co
     LightPathEmission emission;
     emission.scene_ = scene;
     emission.lights_ = tables.lights.count;
-    const double sky = integral_of_environment(tables);
+    const double sky = light_of_environment(tables).integral;
     std::vector<double> flux;
     for (int32_t i = 0; i < tables.lights.count; ++i) {
         const double f = flux_of_pair(tables.lights.lights[i], scene, sky);

@@ -15,7 +15,7 @@ namespace blush {
 // True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
 bool casts_caustics(const Material& material);
 // True for other smooth or nearly smooth surfaces that reflect some light: window glass, plastic, varnish. The few rays that they reflect
-// rarely find a sun, and light paths alone find lights without size there.
+// rarely find a small light, and light paths alone find lights without size there.
 bool reflects_weakly(const Material& material);
 
 // Bounding sphere of a geometry, in object space.

@@ -1,12 +1,14 @@
 #include "render/lights/environment_table.h"
 
 #include "core/parallel.h"
+#include "core/sampler.h"
 #include "scene/affine.h"
 #include "scene/lights/sky_model.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <chrono>
@@ -231,6 +233,28 @@ EnvironmentTables EnvironmentTable::tables() const {
             rotation,
             visible_to_camera,
             lights_scene};
+}
+
+EnvironmentLight measure_light(const EnvironmentTables& environment) {
+    constexpr int count = 256;
+    constexpr double bright = 100, least_share = 0.1;
+    struct Direction {
+        double radiance, light;
+    };
+    std::array<Direction, count> directions{};
+    EnvironmentLight of_all;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Pair<float> random = Sampler<float>{pcg_hash(0x5c1e9u), i}.pair(0);
+        const EnvironmentSample<float> s = sample_environment<float>(environment, random.x(), random.bits_y);
+        if (!(s.pdf > 0)) continue;
+        directions[i] = {double(luminance(s.radiance)), double(luminance(s.radiance)) / double(s.pdf) / count};
+        of_all.integral += directions[i].light;
+    }
+    double of_suns = 0;
+    for (const Direction& d : directions)
+        if (d.radiance >= bright * of_all.integral / (4 * std::numbers::pi)) of_suns += d.light;
+    of_all.has_suns = of_suns > 0 && of_suns >= least_share * of_all.integral;
+    return of_all;
 }
 
 EnvironmentTable build_environment_table(const Environment& environment, EnvironmentSampling sampling, const Workers* workers) {

@@ -67,6 +67,13 @@ struct EnvironmentBytes {
     int64_t texels = 0, importance = 0;
 };
 EnvironmentBytes environment_bytes(int64_t width, int64_t height);
+// Light of an environment, estimated by 256 sampled directions; luminance.
+struct EnvironmentLight {
+    double integral = 0;   // of the radiance over all directions
+    bool has_suns = false; // a tenth of it comes from directions with a hundred times the mean radiance
+};
+// Requires an importance map (EnvironmentTable::sampled_share > 0).
+EnvironmentLight measure_light(const EnvironmentTables& environment);
 // Updates colour, intensity, rotation and visibility; keeps the map. The result is bit-identical to a new build.
 void update_environment_parameters(EnvironmentTable& table, const Environment& environment);
 

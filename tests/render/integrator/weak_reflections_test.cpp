@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -32,18 +35,38 @@ Material coated_black() {
     return m;
 }
 
-// A floor before an upright wall of this width, in a sun that is reflected onto it at 45 degrees; seen from above, 2 half metres of it.
-Scene terrace(float sun_angle, const Material& floor, const Material& wall, float wall_width, float half) {
+// A floor before an upright wall of this width; seen from above, 2 half metres of it.
+Scene dark_terrace(const Material& floor, const Material& wall, float wall_width, float half) {
     Scene scene;
     place(scene, floor_quad(5), floor);
     const float x = wall_width / 2;
     place(scene, quad({-x, 0, 0}, {x, 0, 0}, {x, 3, 0}, {-x, 3, 0}), wall);
+    scene.view = looking({0, 4, 1.2f}, {0, 0, 1}, 2 * std::atan(half / 4));
+    return scene;
+}
+// In a sun that the wall reflects onto the floor at 45 degrees.
+Scene terrace(float sun_angle, const Material& floor, const Material& wall, float wall_width, float half) {
+    Scene scene = dark_terrace(floor, wall, wall_width, half);
     Light sun;
     sun.kind = Light::Kind::sun;
     sun.intensity = 10;
     sun.angle_radians = sun_angle;
     place_light(scene, sun, aimed({0, 5, 0}, {0, -1, -1}));
-    scene.view = looking({0, 4, 1.2f}, {0, 0, 1}, 2 * std::atan(half / 4));
+    return scene;
+}
+// In a sky with a sun at the same place, of four texels.
+Scene sunny_sky(float sun_radiance) {
+    Scene scene = dark_terrace(lambert(albedo), plastic(0), 3, 0.6f);
+    std::vector<Vec3> texels(size_t(64 * 32), Vec3{1, 1, 1} * 0.3f);
+    for (const size_t y : {7u, 8u})
+        for (const size_t x : {0u, 63u}) texels[64 * y + x] = Vec3{1, 1, 1} * sun_radiance;
+    scene.environment.kind = Environment::Kind::image;
+    scene.environment.image = float_image(64, 32, texels);
+    return scene;
+}
+Scene bulb_before_wall(float radius) {
+    Scene scene = dark_terrace(lambert(albedo), plastic(0), 3, 0.6f);
+    place_light(scene, caustic_light(Light::Kind::point, 100, radius), at({0, 2.5f, 3}));
     return scene;
 }
 
@@ -79,32 +102,34 @@ TEST(WeakReflections, OfAParallelSunAndARealOneAgreeOnPlastic) {
     EXPECT_TRUE(same_means(shown(real_sun, 1), shown(0, 100)));
 }
 
-// Narrow lobes, which NEE and rays find, too: the same image without light paths.
-TEST(WeakReflections, OfNarrowLobesAreThoseThatPathsOfTheCameraFind) {
+// Means of nine blocks: with a share of light paths or without.
+std::vector<Measured> blocks_with(const Scene& scene, std::optional<float> share, int64_t spp) {
+    return caustic_blocks(scene, settings_for(12, 12, spp), {.light_path_share = share}, "light paths", true, 24, 1);
+}
+std::vector<Measured> blocks_without(const Scene& scene, int64_t spp) {
+    RenderSettings settings = settings_for(12, 12, spp);
+    settings.caustics = CausticStrategy::off;
+    return caustic_blocks(scene, settings, {}, "light paths", false, 24, 100);
+}
+
+// Of narrow lobes and of lights that rays find, too: the same image without light paths.
+TEST(WeakReflections, AreThoseThatPathsOfTheCameraFind) {
     Material coated = lambert(0.3f);
     coated.clearcoat = 1;
     coated.clearcoat_roughness = 0.15f;
-    for (const Material& wall : {plastic(0.1f), plastic(0.15f), coated}) {
-        const Scene scene = terrace(0.1f, plastic(0.6f), wall, 3, 0.6f);
-        const auto shown = [&](CausticStrategy caustics, int64_t spp, uint32_t seed) {
-            RenderSettings settings = settings_for(12, 12, spp);
-            settings.caustics = caustics;
-            return caustic_blocks(scene, settings, {.light_path_share = 1.f}, "light paths", caustics != CausticStrategy::off, 24, seed);
-        };
-        EXPECT_TRUE(same_means(shown(CausticStrategy::light_paths, 16, 1), shown(CausticStrategy::off, 256, 100)));
-    }
+    std::vector<Scene> scenes{sunny_sky(3000), bulb_before_wall(0.4f)};
+    for (const Material& wall : {plastic(0.1f), plastic(0.15f), coated}) scenes.push_back(terrace(0.1f, plastic(0.6f), wall, 3, 0.6f));
+    for (size_t k = 0; k < scenes.size(); ++k)
+        EXPECT_TRUE(
+            same_means(blocks_with(scenes[k], 1.f, 16), blocks_without(scenes[k], 256), sidak(significance, int64_t(scenes.size()))))
+            << k;
 }
 
 // NEE finds a parallel sun by lobes with a density, but rarely where they are narrow: the pilot combines both strategies.
 TEST(WeakReflections, OfAParallelSunByNarrowLobesAreFoundByLightPaths) {
     for (const Material& wall : {plastic(0.1f), metal(0.1f)}) {
         const Scene scene = terrace(0, lambert(albedo), wall, 3, 0.6f);
-        const auto shown = [&](CausticStrategy caustics, int64_t spp, uint32_t seed) {
-            RenderSettings settings = settings_for(12, 12, spp);
-            settings.caustics = caustics;
-            return caustic_blocks(scene, settings, {}, "light paths", caustics != CausticStrategy::off, 24, seed);
-        };
-        const auto with = shown(CausticStrategy::light_paths, 64, 1), without = shown(CausticStrategy::off, 256, 100);
+        const auto with = blocks_with(scene, {}, 64), without = blocks_without(scene, 256);
         EXPECT_TRUE(same_means(with, without));
         for (size_t k = 0; k < with.size(); ++k) EXPECT_LT(with[k].error.x, without[k].error.x) << "with a quarter of the samples";
     }
@@ -136,10 +161,21 @@ TEST(WeakReflections, LeaveDirectLightToTheCamerasPaths) {
     EXPECT_GT(before, 0);
 }
 
+// Rays find what weak reflectors show of even skies: these have no light paths, and nothing to decide.
+TEST(WeakReflections, OfEvenSkiesAreLeftToRays) {
+    for (const auto& [radiance, casters] : {std::pair(3000.f, 1), std::pair(3.f, 0)}) {
+        RenderScene compiled;
+        compiled.update(sunny_sky(radiance), settings_for(8, 8, 1), full_plan(), Workers(1));
+        EXPECT_EQ(compiled.tables().emission_casters.count, casters) << radiance;
+        EXPECT_EQ(compiled.tables().casters.count, 0);
+    }
+}
+
 // A lamp of an area is found by rays, however a weak reflector shows it.
-TEST(WeakReflections, AreGivenLightPathsBySunsAndNotByLamps) {
+TEST(WeakReflections, AreGivenLightPathsBySunsAndBulbsAndNotByMeshes) {
     Scene scene = terrace(real_sun, lambert(albedo), window_glass(), 3, 0.3f);
     place(scene, ceiling_quad(0.5f, 2.5f), emitter(10));
+    place_light(scene, caustic_light(Light::Kind::point, 100, 0.05f), at({0, 2.5f, 3}));
     RenderScene compiled;
     compiled.update(expand_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1));
     const SceneTables& tables = compiled.tables();
@@ -147,14 +183,14 @@ TEST(WeakReflections, AreGivenLightPathsBySunsAndNotByLamps) {
     EXPECT_EQ(tables.casters.count, 0);
     const LightPathEmission emission(tables, compiled.bounding_sphere());
     const EmissionTables pairs = emission.tables(1);
-    int suns = 0;
+    int small = 0;
     for (int32_t light = 0; light < pairs.lights; ++light) {
-        const bool is_sun = LightKind(tables.lights.lights[light].kind) == LightKind::sun;
-        EXPECT_EQ(pairs.chances[2 * light] > 0, is_sun);
-        suns += is_sun;
+        const bool of_mesh = LightKind(tables.lights.lights[light].kind) == LightKind::triangle;
+        EXPECT_EQ(pairs.chances[2 * light] > 0, !of_mesh);
+        small += !of_mesh;
     }
-    EXPECT_EQ(suns, 1);
-    EXPECT_GT(pairs.lights, 1);
+    EXPECT_EQ(small, 2);
+    EXPECT_GT(pairs.lights, 2);
 }
 
 } // namespace
