@@ -36,7 +36,7 @@ void shade_photons(const KernelContext& context, TileScratch& scratch, const Pat
         }
         if (bounce + 1 >= context.settings.max_bounces) continue;
         const LightPathVertex<float> v{p, clamped_cosine<float>(p.shading.ng, p.side.wo)};
-        continue_light_path<s, float>(context, path, v, bounce, scratch, next, queue);
+        continue_light_path<s, float>(context, path, v, bounce, true, scratch, next, queue);
     }
 }
 

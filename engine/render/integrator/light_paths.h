@@ -159,10 +159,10 @@ connect_vertex(const KernelContext& context, TileScratch& scratch, const Path<F>
     append<F>(scratch.shadows, step, path.slot, connects);
 }
 
-// Appends the path behind the vertex.
-template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_light_path(const KernelContext& context, const Path<F>& path,
-                                                                                        const LightPathVertex<F>& v, int bounce,
-                                                                                        TileScratch& scratch, PathQueue& next, int queue) {
+// Appends the path behind the vertex. `all_lobes`: it goes on by all lobes of its first surface, else by those that it shares with NEE.
+template <Features S, class F>
+[[gnu::noinline, gnu::flatten]] void continue_light_path(const KernelContext& context, const Path<F>& path, const LightPathVertex<F>& v,
+                                                         int bounce, bool all_lobes, TileScratch& scratch, PathQueue& next, int queue) {
     const EstimatorSettings& settings = context.settings;
     const Sampler<F> sampler{path.key, path.index};
     const uint32_t dimension = first_light_vertex_dimension + dimensions_per_light_vertex * uint32_t(bounce);
@@ -186,7 +186,7 @@ template <Features S, class F> [[gnu::noinline, gnu::flatten]] void continue_lig
         const ViewedPoint<F> view =
             view_point<S, F>(*context.scene, settings.energy, v.surface, v.material, v.bsdf, wi, v.side.wo, true, dense);
         F share = F(1.f);
-        if (bounce == 0 && !context.scene->emission.empty()) {
+        if (bounce == 0 && !all_lobes) {
             share = facet_share<S, F>(v.bsdf, s.wi, s.pdf);
             shared = !dense || sampler.pair(dimension + light_lens_dimension).x() < share; // its lens is not sampled
         }
@@ -265,7 +265,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
             v.nee_ratio = load<F>(columns.nee_ratio[1 - queue] + k);
         }
         if (bounce > 0) connect_vertex<S, F>(context, scratch, path, v, bounce);
-        if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, scratch, next, queue);
+        if (bounce + 1 < settings.max_bounces) continue_light_path<S, F>(context, path, v, bounce, false, scratch, next, queue);
     }
 }
 
