@@ -132,6 +132,12 @@ EmittedPath LightPathEmission::emit_by(const SceneTables& scene, const Random& r
     return path;
 }
 
+void sort_paths(std::vector<uint64_t>& order, const std::vector<EmittedPath>& paths, std::vector<EmittedPath>& sorted) {
+    std::ranges::sort(order);
+    sorted.clear();
+    for (const uint64_t at : order) sorted.push_back(paths[size_t(uint32_t(at))]);
+}
+
 void trace_light_path_tile(const KernelContext& context, const Kernel& kernel, const LightPathEmission& emission, const LightPathTile& tile,
                            TileScratch& scratch) {
     if (!scratch.light_paths) scratch.light_paths = std::make_unique<LightPathColumns>();

@@ -7,10 +7,17 @@
 #include "render/integrator/light_sampling.h"
 #include "render/kernels/light_path_columns.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+namespace blush {
+
+// Replaces `sorted` by the paths that the lower halves of `order` number, in its ascending order. Not a template, which kernels for
+// different instruction sets would share.
+void sort_paths(std::vector<uint64_t>& order, const std::vector<EmittedPath>& paths, std::vector<EmittedPath>& sorted);
+
+} // namespace blush
 
 namespace blush::inline BLUSH_ISA {
 
@@ -149,9 +156,7 @@ template <class F> void emit_light_paths(const SceneTables& scene, const Emissio
             unsorted.back().index = uint32_t(k + i);
         });
     }
-    std::ranges::sort(order);
-    emitted.clear();
-    for (const uint64_t at : order) emitted.push_back(unsorted[size_t(uint32_t(at))]);
+    sort_paths(order, unsorted, emitted);
 }
 
 } // namespace blush::inline BLUSH_ISA
