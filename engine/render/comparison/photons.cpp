@@ -81,16 +81,12 @@ bool PhotonGrid::trace(const PreparationContext& context, const PhotonSelection&
     photons_.clear();
     cells_.clear();
     if (emission_.empty()) return true;
-    KernelContext kernel = context.kernel;
-    SceneTables tables = *kernel.scene;
-    tables.emission = emission_.tables(1);
-    kernel.scene = &tables;
     const int64_t tiles = (selection.paths + tile_capacity - 1) / tile_capacity;
     std::vector<std::vector<Photon>> of_tile{size_t(tiles)};
     const bool done = context.workers.for_each(tiles, context.wanted, [&](int64_t tile, unsigned worker) {
         const int64_t first = tile * tile_capacity;
         const int count = int(std::min<int64_t>(tile_capacity, selection.paths - first));
-        of_tile[size_t(tile)] = trace_photons(kernel, emission_, first, count, selection, context.scratch_of(worker));
+        of_tile[size_t(tile)] = trace_photons(context.kernel, emission_, first, count, selection, context.scratch_of(worker));
     });
     for (const std::vector<Photon>& photons : of_tile) photons_.insert(photons_.end(), photons.begin(), photons.end());
     sort_by_cells();
