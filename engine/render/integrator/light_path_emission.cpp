@@ -2,7 +2,6 @@
 
 #include "core/distribution.h"
 #include "core/math.h"
-#include "render/integrator/light_path_sampling.h"
 #include "render/lights/environment_table.h"
 
 #include <algorithm>
@@ -54,7 +53,7 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
 }
 
 // Of other lights, rays find the reflection by weak reflectors.
-bool is_emitted_to_weak(const LightRecord& light, const EnvironmentLight& sky) {
+bool emits_to_weak_reflectors(const LightRecord& light, const EnvironmentLight& sky) {
     const auto kind = LightKind(light.kind);
     return kind != LightKind::triangle && (kind != LightKind::environment || sky.has_suns);
 }
@@ -80,7 +79,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky.integral);
             if (!std::isfinite(f)) f = 0;
             const bool is_weak = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
-            if (is_weak) f *= is_emitted_to_weak(light, sky) ? weak_share : 0;
+            if (is_weak) f *= emits_to_weak_reflectors(light, sky) ? weak_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }
@@ -122,12 +121,11 @@ EmissionTables LightPathEmission::tables(float paths) const {
 }
 
 EmittedPath LightPathEmission::emit(const SceneTables& scene, const Sampler<float>& sampler) const {
-    const EmissionRandom<float> random = emission_random<float>(sampler);
-    return emit_by(scene, {random.pair, random.point, random.direction}, sampler.index);
+    return emit_by(scene, emission_random<float>(sampler), sampler.index);
 }
 
-EmittedPath LightPathEmission::emit_by(const SceneTables& scene, const Random& random, uint32_t index) const {
-    EmittedPath path = emitted_in_lane<float>(emit_path<float>(scene, tables(1), {random.pair, random.point, random.direction}), 0);
+EmittedPath LightPathEmission::emit_by(const SceneTables& scene, const EmissionRandom<float>& random, uint32_t index) const {
+    EmittedPath path = emitted_in_lane<float>(emit_path<float>(scene, tables(1), random), 0);
     path.index = index;
     return path;
 }

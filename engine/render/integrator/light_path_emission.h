@@ -3,6 +3,7 @@
 
 #include "core/sampler.h"
 #include "render/compile/scene_tables.h"
+#include "render/integrator/light_path_sampling.h"
 #include "render/kernels/kernel.h"
 
 #include <cstdint>
@@ -31,12 +32,8 @@ public:
     bool empty() const { return chances_.empty(); }
     // `paths`: light paths for one camera sample of every pixel. Valid as long as this object and the scene.
     EmissionTables tables(float paths) const;
-    // Random numbers of an emission: choose the light and its caster, the point of the light, and the direction.
-    struct Random {
-        Pair<float> pair, point, direction;
-    };
     // The emission of a path; `tables` as above, in the scene's. `index`: kept in the path.
-    EmittedPath emit_by(const SceneTables& scene, const Random& random, uint32_t index = 0) const;
+    EmittedPath emit_by(const SceneTables& scene, const EmissionRandom<float>& random, uint32_t index = 0) const;
     // With the first pairs of the sampler (light_paths.h).
     EmittedPath emit(const SceneTables& scene, const Sampler<float>& sampler) const;
     size_t memory_bytes() const { return chances_.size() * sizeof(float) + thresholds_.size() * sizeof(uint32_t); }

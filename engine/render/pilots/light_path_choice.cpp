@@ -40,8 +40,8 @@ void LightPathChoice::decide(LightPathPilot pilot) {
 float LightPathChoice::share() const {
     if (!pays()) return 0;
     if (share_) return *share_;
-    const float of_sized = pays_by_figures() ? pilot_->share : 0;
-    return std::max(of_sized, pilot_->zero_size_share);
+    const float by_figures = pays_by_figures() ? pilot_->share : 0;
+    return std::max(by_figures, pilot_->zero_size_share);
 }
 
 double LightPathChoice::work_per_sample() const {

@@ -19,7 +19,7 @@ struct LightPathPilot {
     std::optional<PilotFigures> figures = {}; // at that share; at 1/8 if it is 0. Empty: no path that others find reaches the image
     LightPathEmission zero_size = {};         // of lights without size alone; empty: none of them reaches a caster
     float zero_size_share = 0;                // at least 1/8 if there are some
-    double work = 0, zero_size_work = 0;      // rays of a light path of lights with a size, of others (path_work)
+    double work = 0, zero_size_work = 0;      // rays of a light path of all lights, of those without size (path_work)
 };
 
 // Emission that smooth edges refine in an image (edge_samples.h).
