@@ -1,6 +1,6 @@
 #include "tests/bench/edits.h"
 
-#include "render/lights/caustic_caster_table.h"
+#include "render/materials/smoothness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,7 +130,7 @@ Id<Node> a_caster(const Scene& scene) {
         const Mesh* mesh = scene.meshes.find(node.mesh);
         if (mesh && is_visible(scene, id) && std::ranges::any_of(mesh->parts, [&](const MeshPart& part) {
                 const Material* material = scene.materials.find(part.material);
-                return material && casts_caustics(*material);
+                return material && smoothness_of(*material).casts_caustics > 0;
             }))
             return id;
     }

@@ -77,13 +77,14 @@ void RenderScene::update_caustic_casters(const Scene& scene, const RenderSetting
     const bool zero_size = lights_.point_lights > 0 || lights_.sun_lights > int64_t(lights_.suns.size());
     const bool allowed = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
     const bool small = zero_size || lights_.sphere_lights > 0 || !lights_.suns.empty();
-    const bool weak = allowed && !used_.weak_casters.empty();
+    const Smoothness& textured = smoothness_.largest();
+    const bool weak = allowed && (!used_.weak_casters.empty() || textured.casts_caustics + textured.reflects_weakly > 0);
     const bool sun_in_sky = weak && !small && tables_.lights.samples_environment && measure_light(tables_.environment).has_suns;
     const CausticCasterTable::Wanted wanted{.mirrors_and_glass = allowed && (can_be_hit || zero_size),
                                             .weak_reflectors = weak && (small || sun_in_sky)};
     if (changed_.objects || changed_.origin || changed_.casters || wanted != wanted_casters_) {
         wanted_casters_ = wanted;
-        caustic_casters_.build(scene, objects_, extent_.origin, wanted);
+        caustic_casters_.build(scene, objects_, smoothness_, extent_.origin, wanted);
     }
     tables_.casters = caustic_casters_.mirrors_and_glass();
     tables_.emission_casters = caustic_casters_.tables();

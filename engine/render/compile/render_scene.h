@@ -8,6 +8,7 @@
 #include "render/compile/feature_report.h"
 #include "render/compile/geometry_pool.h"
 #include "render/compile/object_list.h"
+#include "render/compile/part_smoothness.h"
 #include "render/compile/scene_origin.h"
 #include "render/compile/update_plan.h"
 #include "render/compile/used_materials.h"
@@ -101,7 +102,7 @@ private:
         bool origin = false;      // of all positions
         bool emission = false;    // materials of emissive meshes
         bool emitters = false;    // which materials emit
-        bool casters = false;     // which materials cast caustics
+        bool casters = false;     // which surfaces cast caustics
         bool alpha = false;       // which materials are not opaque
         bool masks = false;       // ray masks of objects other than flat meshes of area lights
         bool bvh = false;         // or the part of it that holds area lights
@@ -124,6 +125,7 @@ private:
     std::vector<size_t> area_lights_;   // indices of objects that are meshes of area lights
     std::vector<SphereLight> spheres_;
     UsedMaterials used_;
+    PartSmoothness smoothness_; // of parts of used_.smooth_by_texture
     bool has_colors_ = false, has_catchers_ = false; // some object
     AttributeNeeds needs_;
     ExtentCache extents_;

@@ -112,6 +112,10 @@ void RenderScene::update_used_materials(const Scene& scene, const UpdatePlan& pl
     changed_.casters = used.casters != used_.casters || used.weak_casters != used_.weak_casters;
     changed_.alpha = used.alpha != used_.alpha;
     used_ = std::move(used);
+    changed_.casters |=
+        smoothness_.update(scene, objects_, used_.smooth_by_texture, plan.all_materials ? nullptr : &plan.materials, materials_);
+    used_.smooth.mirror |= smoothness_.largest().is_mirror > 0;
+    used_.smooth.glass |= smoothness_.largest().is_glass > 0;
     tables_.blends = used_.blends;
     tables_.panes = used_.panes;
 }

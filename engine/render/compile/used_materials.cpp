@@ -1,8 +1,8 @@
 #include "render/compile/used_materials.h"
 
-#include "render/lights/caustic_caster_table.h"
 #include "render/lights/mesh_lights.h"
 #include "render/materials/material_factors.h"
+#include "render/materials/smoothness.h"
 
 namespace blush {
 
@@ -23,8 +23,13 @@ UsedMaterials describe(std::vector<Id<Material>> ids, const Scene& scene, const 
         if (!material) continue;
         if (material->alpha != Material::Alpha::opaque) used.alpha.push_back(id);
         used.blends |= material->alpha == Material::Alpha::blend;
-        if (casts_caustics(*material)) used.casters.push_back(id);
-        if (reflects_weakly(*material)) used.weak_casters.push_back(id);
+        if (is_smooth_by_texture(*material)) {
+            used.smooth_by_texture.push_back(id);
+        } else {
+            const Smoothness smoothness = smoothness_of(*material);
+            if (smoothness.casts_caustics > 0) used.casters.push_back(id);
+            if (smoothness.reflects_weakly > 0) used.weak_casters.push_back(id);
+        }
         used.panes |= may_pass_straight(*material);
         const TextureReads reads = texture_reads(*material);
         used.uv_sets.insert(reads.uv_sets.begin(), reads.uv_sets.end());

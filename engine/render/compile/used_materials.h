@@ -13,11 +13,12 @@ namespace blush {
 struct UsedMaterials {
     // All lists are in id order, each id once; 0 is glTF's default material.
     std::vector<Id<Material>> ids;
-    std::vector<Id<Material>> alpha;        // not opaque
-    std::vector<Id<Material>> emissive;     // their triangles are lights
-    std::vector<Id<Material>> casters;      // of caustics
-    std::vector<Id<Material>> weak_casters; // see reflects_weakly()
-    std::set<int> uv_sets;                  // that their textures read
+    std::vector<Id<Material>> alpha;             // not opaque
+    std::vector<Id<Material>> emissive;          // their triangles are lights
+    std::vector<Id<Material>> casters;           // of caustics, wherever they are
+    std::vector<Id<Material>> weak_casters;      // of light of small lights (Smoothness::reflects_weakly)
+    std::vector<Id<Material>> smooth_by_texture; // in neither of these lists, nor in `smooth`: see PartSmoothness
+    std::set<int> uv_sets;                       // that their textures read
     bool tangents = false;
     bool blends = false;     // some is neither opaque nor masked
     bool panes = false;      // light may pass one straight through (thin_transmission.h)

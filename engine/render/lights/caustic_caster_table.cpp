@@ -1,8 +1,6 @@
 #include "render/lights/caustic_caster_table.h"
 
 #include "core/math.h"
-#include "render/materials/material_factors.h"
-#include "render/materials/material_layers.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -11,15 +9,10 @@
 namespace blush {
 namespace {
 
-// Above this roughness, NEE finds the reflected light well enough.
-constexpr float max_caster_roughness = 0.2f;
-// The same of a weak reflection, which is found at less cost beside the diffuse part.
-constexpr float max_weak_roughness = 0.15f;
-
-// Minimal share of specular reflection or refraction in a material's light; less is not visible next to the diffuse part.
-constexpr float min_specular_share = 0.5f;
-
-bool is_opaque(const Material& m) { return !m.unlit && m.alpha == Material::Alpha::opaque; }
+// Of a part of which less is smooth, light paths are rarely worth it: its other places stop them.
+constexpr float min_smooth_share = 1.f / 32;
+// Of a part of which less is mirror or glass, other surfaces sample too many directions in vain.
+constexpr float min_caster_share = 0.25f;
 
 // Upper bound of the scale factor of a transform: exact for rotations with uniform scale, else the Frobenius norm.
 double max_scale(const Affined& a) {
@@ -29,16 +22,6 @@ double max_scale(const Affined& a) {
 }
 
 } // namespace
-
-bool casts_caustics(const Material& m) {
-    const float refracts = m.thickness > 0 ? m.transmission : 0; // thin walls do not bend light (thin_transmission.h)
-    return is_opaque(m) && m.roughness <= max_caster_roughness && std::max(m.metallic, refracts) >= min_specular_share;
-}
-
-bool reflects_weakly(const Material& m) {
-    const bool base = reflects(m) && m.roughness <= max_weak_roughness, coat = is_coated(m) && m.clearcoat_roughness <= max_weak_roughness;
-    return is_opaque(m) && !casts_caustics(m) && (base || coat);
-}
 
 const char* why_no_guides(const CausticCasterTables& guides, const CausticCasterTables& all) {
     if (guides.count > 0) return nullptr;
@@ -53,15 +36,17 @@ GeometryBoundingSphere bounding_sphere(const Geometry& geometry) {
     return sphere;
 }
 
-void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted) {
+void CausticCasterTable::build(const Scene& scene, const std::vector<SceneObject>& objects, const PartSmoothness& smoothness,
+                               const Vec3d& origin, const Wanted& wanted) {
     std::map<uint64_t, GeometryBoundingSphere> used;
     std::vector<CasterSphere> mirrors_and_glass, weak;
     for (const SceneObject& object : objects)
         for (const MeshPart& part : object.parts) {
             const Material* material = scene.materials.find(part.material);
             if (!material) continue;
-            const bool focuses = wanted.mirrors_and_glass && casts_caustics(*material);
-            if (!focuses && !(wanted.weak_reflectors && reflects_weakly(*material))) continue;
+            const Smoothness shares = smoothness.of(part, *material);
+            const bool focuses = wanted.mirrors_and_glass && shares.casts_caustics >= min_caster_share;
+            if (!focuses && !(wanted.weak_reflectors && shares.casts_caustics + shares.reflects_weakly >= min_smooth_share)) continue;
             const uint64_t serial = part.geometry->serial;
             if (!used.contains(serial)) {
                 const auto known = by_serial_.find(serial);

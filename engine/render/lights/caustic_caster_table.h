@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/compile/object_list.h"
+#include "render/compile/part_smoothness.h"
 #include "scene/scene.h"
 #include "shading/caustic_guiding.h"
 
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace blush {
-
-// True for smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
-bool casts_caustics(const Material& material);
-// True for other smooth or nearly smooth surfaces that reflect some light: window glass, plastic, varnish. The few rays that they reflect
-// rarely find a small light, and light paths alone find lights without size there.
-bool reflects_weakly(const Material& material);
 
 // Bounding sphere of a geometry, in object space.
 struct GeometryBoundingSphere {
@@ -34,13 +29,14 @@ class CausticCasterTable {
 public:
     static constexpr size_t max_casters = 8; // the largest ones; every diffuse vertex loops over all of them
 
-    // Which casters an image needs.
+    // Which casters an image needs. Weak reflectors: see Smoothness.
     struct Wanted {
         bool mirrors_and_glass = false, weak_reflectors = false;
         bool operator==(const Wanted&) const = default;
     };
-    // `objects` in their traced form; positions are relative to `origin`.
-    void build(const Scene& scene, const std::vector<SceneObject>& objects, const Vec3d& origin, const Wanted& wanted);
+    // `objects` in their traced form; positions are relative to `origin`. A part is what a large enough share of it is.
+    void build(const Scene& scene, const std::vector<SceneObject>& objects, const PartSmoothness& smoothness, const Vec3d& origin,
+               const Wanted& wanted);
     // Mirrors and glass, then weak reflectors.
     CausticCasterTables tables() const { return {spheres_.data(), int32_t(spheres_.size())}; }
     CausticCasterTables mirrors_and_glass() const { return {spheres_.data(), mirrors_and_glass_}; }

@@ -1,9 +1,8 @@
 #include "render/lights/missing_light.h"
 
 #include "render/materials/material_factors.h"
-#include "render/materials/material_layers.h"
+#include "render/materials/smoothness.h"
 #include "scene/world_transforms.h"
-#include "shading/microfacet.h"
 
 #include <algorithm>
 #include <string>
@@ -20,8 +19,6 @@ bool has_size(const Light& light) {
     }
 }
 
-bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < smooth_roughness; }
-bool has_smooth_coat(const Material& m) { return is_coated(m) && unit(m.clearcoat_roughness) < smooth_roughness; }
 // Transmits light, and has lobes with a density.
 bool is_rough_and_transmits(const Material& m) {
     return is_translucent(m) || (transmits(m) && (!is_smooth(m) || m.transmission < 1 || m.transmission_texture.texture));
@@ -35,8 +32,10 @@ SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material
         const Material* m = scene.materials.find(id);
         if (!m) continue;
         surfaces.rough_transmission |= is_rough_and_transmits(*m);
-        surfaces.mirror |= is_smooth(*m) || has_smooth_coat(*m);
-        surfaces.glass |= is_smooth(*m) && transmits(*m) && !is_thin(*m);
+        if (is_smooth_by_texture(*m)) continue;
+        const Smoothness smoothness = smoothness_of(*m);
+        surfaces.mirror |= smoothness.is_mirror > 0;
+        surfaces.glass |= smoothness.is_glass > 0;
     }
     return surfaces;
 }

@@ -19,7 +19,7 @@ struct SmoothSurfaces {
     // begin there.
     bool rough_transmission = false;
 };
-// `used`: the materials of all rendered objects, each once or more.
+// `used`: the materials of all rendered objects, each once or more. Without those that are smooth by a texture (smoothness.h).
 SmoothSurfaces smooth_surfaces(const Scene& scene, const std::vector<Id<Material>>& used);
 // Number of enabled, visible lights without a size, which no ray hits: point and spot lights without radius, suns without angle.
 // `nodes`: those with lights (expanded_lights.h).

@@ -21,6 +21,8 @@ inline bool transmits(const Material& m) { return !m.unlit && m.transmission > 0
 inline bool is_translucent(const Material& m) { return !m.unlit && m.diffuse_transmission > 0; }
 inline bool is_thin(const Material& m) { return !(m.thickness > 0); }
 
+inline bool is_smooth(const Material& m) { return reflects(m) && unit(m.roughness) < smooth_roughness; }
+
 // True if the material may be Lambertian, and not black, somewhere: no factor that a texture cannot set to zero gives it another
 // lobe.
 inline bool may_be_lambertian(const Material& m) {
@@ -33,7 +35,7 @@ inline bool may_be_lambertian(const Material& m) {
 inline bool is_solid(const Material& m) { return (transmits(m) || is_translucent(m)) && !is_thin(m); }
 // A thin wall that is smooth, or may be in places where a texture makes it so: light may pass it straight through.
 inline bool may_pass_straight(const Material& m) {
-    return transmits(m) && is_thin(m) && (unit(m.roughness) < smooth_roughness || m.metallic_roughness_texture.texture);
+    return transmits(m) && is_thin(m) && (is_smooth(m) || m.metallic_roughness_texture.texture);
 }
 
 // A texture slot of Material and the corresponding field of a compiled record.

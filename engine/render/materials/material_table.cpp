@@ -82,7 +82,7 @@ std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector
 // True if delta lobes of the material can be events of manifold sampling: their normal is the interpolated one, and they are the same
 // whatever the width that textures are filtered over.
 bool may_chain(const Material& m) {
-    return reflects(m) && unit(m.roughness) < smooth_roughness && !m.metallic_roughness_texture.texture && !has_normal_map(m) &&
+    return is_smooth(m) && !m.metallic_roughness_texture.texture && !has_normal_map(m) &&
            m.alpha == Material::Alpha::opaque && !is_coated(m) && !has_sheen(m) && !is_anisotropic(m) && !is_translucent(m) &&
            (!transmits(m) || is_solid(m));
 }

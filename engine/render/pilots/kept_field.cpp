@@ -67,7 +67,7 @@ bool keeps_chains(const Scene& before, const Scene& after, const Changes& change
         return same_emission_shape(a, b) && a.enabled == b.enabled && (a.intensity > 0) == (b.intensity > 0);
     };
     const auto focuses_alike = [](const Material& a, const Material& b) {
-        return emits(a) == emits(b) && !casts_caustics(a) && !casts_caustics(b);
+        return emits(a) == emits(b) && !may_cast_caustics(a) && !may_cast_caustics(b);
     };
     return all_keep(before.lights, after.lights, changes.lights, shines_alike) &&
            all_keep(before.materials, after.materials, changes.materials, focuses_alike);
@@ -89,7 +89,7 @@ struct EffectOfEdit {
         const bool both = !was.empty && !is.empty;
         if (has_material(before, id, emits) || has_material(after, id, emits))
             decay(both ? factor_of(angle_moved(was.center(), is.center(), casters, origin), half_angle) : reshaped_factor);
-        if (!has_material(before, id, casts_caustics) && !has_material(after, id, casts_caustics)) return;
+        if (!has_material(before, id, may_cast_caustics) && !has_material(after, id, may_cast_caustics)) return;
         if (!both) return decay(reshaped_factor);
         const Vec3d shift = is.center() - was.center();
         decay(factor_of(std::sqrt(dot(shift, shift)) / std::max(1e-6, is.radius()), half_shift));

@@ -125,6 +125,36 @@ TEST(WeakReflections, AreThoseThatPathsOfTheCameraFind) {
             << k;
 }
 
+// The same with the roughness in a texture.
+Scene with_roughness_texture(Scene scene) {
+    std::vector<Id<Material>> ids;
+    for (const auto& [id, material] : scene.materials)
+        if (material.specular > 0) ids.push_back(id);
+    for (const Id<Material> id : ids) {
+        Material m = *scene.materials.find(id);
+        m.metallic_roughness_texture.texture = add_texture(scene, float_image(1, 1, std::vector<Vec3>{{0, m.roughness, 1}}));
+        m.roughness = 1;
+        scene.materials.set(id, m);
+    }
+    return scene;
+}
+
+TEST(WeakReflections, OfRoughnessByATextureAreThoseOfTheFactor) {
+    for (const Material& wall : {plastic(0), plastic(0.1f)})
+        for (const float angle : {0.f, real_sun}) {
+            const auto rendered = [&](const Scene& scene) {
+                Renderer renderer({.threads = 2, .planes = {}});
+                const RenderSettings settings = settings_for(16, 16, 8);
+                renderer.update(scene, settings);
+                EXPECT_TRUE(renderer.render(0, settings.spp));
+                EXPECT_TRUE(feature_line(renderer, "light paths").used);
+                return renderer.resolve().rgba;
+            };
+            const Scene scene = terrace(angle, lambert(albedo), wall, 3, 0.6f);
+            EXPECT_EQ(rendered(with_roughness_texture(scene)), rendered(scene)) << wall.roughness << " " << angle;
+        }
+}
+
 // NEE finds a parallel sun by lobes with a density, but rarely where they are narrow: the pilot combines both strategies.
 TEST(WeakReflections, OfAParallelSunByNarrowLobesAreFoundByLightPaths) {
     for (const Material& wall : {plastic(0.1f), metal(0.1f)}) {
