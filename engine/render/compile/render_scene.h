@@ -125,7 +125,7 @@ private:
     std::vector<size_t> area_lights_;   // indices of objects that are meshes of area lights
     std::vector<SphereLight> spheres_;
     UsedMaterials used_;
-    PartSmoothness smoothness_; // of parts of used_.smooth_by_texture
+    PartSmoothness smoothness_;                      // of parts of used_.smooth_by_texture
     bool has_colors_ = false, has_catchers_ = false; // some object
     AttributeNeeds needs_;
     ExtentCache extents_;

@@ -82,9 +82,8 @@ std::vector<TextureSource> texture_sources(const Scene& scene, const std::vector
 // True if delta lobes of the material can be events of manifold sampling: their normal is the interpolated one, and they are the same
 // whatever the width that textures are filtered over.
 bool may_chain(const Material& m) {
-    return is_smooth(m) && !m.metallic_roughness_texture.texture && !has_normal_map(m) &&
-           m.alpha == Material::Alpha::opaque && !is_coated(m) && !has_sheen(m) && !is_anisotropic(m) && !is_translucent(m) &&
-           (!transmits(m) || is_solid(m));
+    return is_smooth(m) && !m.metallic_roughness_texture.texture && !has_normal_map(m) && m.alpha == Material::Alpha::opaque &&
+           !is_coated(m) && !has_sheen(m) && !is_anisotropic(m) && !is_translucent(m) && (!transmits(m) || is_solid(m));
 }
 
 MaterialRecord factors_of(const Material& m) {
