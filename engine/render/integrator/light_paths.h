@@ -72,12 +72,13 @@ template <class F> struct LightPathVertex : ShadedHit<F> {
     F scatter_share = F(1.f);                 // share_beside_straight()
     F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
 };
-// Where the path meets a surface, in the lanes of `met`.
-template <Features S, class F> [[gnu::always_inline]] inline LightPathVertex<F>
-light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings, const Path<F>& path, const Hit<F>& hit, const Mask<F>& met) {
-    // Textures are filtered as the camera sees them, but for those of panes (pane_width).
+// Where the path meets a surface, in the lanes of `met`. `seen`: the vertex is connected to the camera.
+template <Features S, class F>
+[[gnu::always_inline]] inline LightPathVertex<F> light_vertex_at(const SceneTables& scene, const EstimatorSettings& settings,
+                                                                 const Path<F>& path, const Hit<F>& hit, const Mask<F>& met, bool seen) {
+    // Textures are filtered as the camera sees them, but for those of panes (pane_width) and behind rough lobes (ray_cone.h).
     const Vec<F> to_eye = path.ray.origin + path.ray.direction * hit.t - splat<F>(scene.camera.position);
-    const float cone = camera_cone(scene.camera, settings);
+    const float cone = seen ? camera_cone(scene.camera, settings) : 0.f;
     F footprint = scene.camera.orthographic ? F(cone) : F(length(to_eye) * cone);
     if constexpr (S.has(Feature::transmission) && S.has(Feature::textures))
         if (scene.panes) footprint = select(is_pane<S, F>(scene, hit, met), F(0.f), footprint);
@@ -244,7 +245,7 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         const Hit<F> hit = load_hit<F>(scratch.hits, k);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        LightPathVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met);
+        LightPathVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met, bounce > 0);
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(v.bsdf);
             if constexpr (S.has(Feature::links))

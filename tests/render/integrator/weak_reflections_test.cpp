@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -153,6 +154,19 @@ TEST(WeakReflections, OfRoughnessByATextureAreThoseOfTheFactor) {
             const Scene scene = terrace(angle, lambert(albedo), wall, 3, 0.6f);
             EXPECT_EQ(rendered(with_roughness_texture(scene)), rendered(scene)) << wall.roughness << " " << angle;
         }
+}
+
+// Fine checks of gloss: their mean roughness would reflect the sun other than they do, so no strategy may filter them.
+TEST(WeakReflections, OfATextureOfRoughnessAreThoseThatPathsOfTheCameraFind) {
+    Scene scene = terrace(0.1f, plastic(0.6f), plastic(1), 3, 0.6f);
+    std::vector<Vec3> texels;
+    for (int i = 0; i < 64; ++i) texels.push_back({0, (i + i / 8) % 2 ? 0.9f : 0.1f, 0});
+    const Id<Material> wall = std::prev(scene.materials.end())->id;
+    Material m = *scene.materials.find(wall);
+    m.metallic_roughness_texture.texture = add_texture(scene, float_image(8, 8, texels));
+    m.metallic_roughness_texture.scale = {64, 64};
+    scene.materials.set(wall, m);
+    EXPECT_TRUE(same_means(blocks_with(scene, 1.f, 64), blocks_without(scene, 1024)));
 }
 
 // NEE finds a parallel sun by lobes with a density, but rarely where they are narrow: the pilot combines both strategies.

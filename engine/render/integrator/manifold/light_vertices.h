@@ -73,7 +73,7 @@ template <Features S, class F>
         const Mask<F> active = as_mask(iota<F>() + k < size);
         const Mask<F> met = active && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
         if (!any(met)) continue;
-        LightPathVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met);
+        LightPathVertex<F> v = light_vertex_at<S, F>(scene, context.settings, path, hit, met, false);
         if constexpr (S.has(Feature::links))
             if (bounce == 0 && scene.links.lit_sets) {
                 const Int<F> light = gather(scratch.light_vertices->light.data, select(met, path.slot, Int<F>(0)));
