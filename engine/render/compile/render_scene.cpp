@@ -2,6 +2,7 @@
 
 #include "core/math.h"
 #include "render/compile/expanded_lights.h"
+#include "render/integrator/light_path_emission.h"
 #include "scene/affine.h"
 
 #include <algorithm>
@@ -70,24 +71,22 @@ void RenderScene::aim(std::span<const Vec3> gains) {
 }
 
 // Strategy::bsdf and CausticStrategy::off exclude casters. Diffuse surfaces sample directions towards them only if rays can find light
-// there. Weak reflectors are casters for small lights alone: of meshes and even skies, rays find the reflection.
+// there. Weak reflectors are casters for small lights alone: of larger meshes and even skies, rays find the reflection.
 void RenderScene::update_caustic_casters(const Scene& scene, const RenderSettings& settings) {
     const bool narrow_sky = lights_.environment >= 0 && scene.environment.kind != Environment::Kind::constant;
     const bool can_be_hit = lights_.emissive_triangles + lights_.sphere_lights > 0 || !lights_.suns.empty() || narrow_sky;
     const bool zero_size = lights_.point_lights > 0 || lights_.sun_lights > int64_t(lights_.suns.size());
-    const bool allowed = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off;
-    const bool small = zero_size || lights_.sphere_lights > 0 || !lights_.suns.empty();
+    const bool allowed = settings.strategy != Strategy::bsdf && settings.caustics != CausticStrategy::off && (can_be_hit || zero_size);
     const Smoothness& textured = smoothness_.largest();
-    const bool weak = allowed && (!used_.weak_casters.empty() || textured.casts_caustics + textured.reflects_weakly > 0);
-    const bool sun_in_sky = weak && !small && tables_.lights.samples_environment && measure_light(tables_.environment).has_suns;
-    const CausticCasterTable::Wanted wanted{.mirrors_and_glass = allowed && (can_be_hit || zero_size),
-                                            .weak_reflectors = weak && (small || sun_in_sky)};
+    const bool weak = !used_.weak_casters.empty() || textured.casts_caustics + textured.reflects_weakly > 0;
+    const CausticCasterTable::Wanted wanted{.mirrors_and_glass = allowed, .weak_reflectors = allowed && weak};
     if (changed_.objects || changed_.origin || changed_.casters || wanted != wanted_casters_) {
         wanted_casters_ = wanted;
         caustic_casters_.build(scene, objects_, smoothness_, extent_.origin, wanted);
     }
     tables_.casters = caustic_casters_.mirrors_and_glass();
-    tables_.emission_casters = caustic_casters_.tables();
+    const CausticCasterTables all = caustic_casters_.tables();
+    tables_.emission_casters = emits_to_weak_reflectors(tables_, all) ? all : tables_.casters;
     tables_.guides.casters = can_be_hit ? tables_.casters : CausticCasterTables{};
 }
 

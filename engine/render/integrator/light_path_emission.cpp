@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 namespace blush {
@@ -18,6 +19,9 @@ constexpr double min_facing = 0.05;
 
 // What weak reflectors reflect of light that falls on them, about: other casters get all of their light.
 constexpr double weak_share = 0.1;
+
+// Rays find meshes that a caster would see in a larger solid angle (sr), if they faced it.
+constexpr double max_small_solid_angle = 0.1;
 
 double flux_of_triangle(const LightRecord& light, const CasterSphere& caster) {
     const Vec3 normal = cross(light.edge1, light.edge2), center = light.position + (light.edge1 + light.edge2) * (1.f / 3);
@@ -52,10 +56,30 @@ double flux_of_pair(const LightRecord& light, const CasterSphere& caster, double
     return 0;
 }
 
-// Of other lights, rays find the reflection by weak reflectors.
-bool emits_to_weak_reflectors(const LightRecord& light, const EnvironmentLight& sky) {
-    const auto kind = LightKind(light.kind);
-    return kind != LightKind::triangle && (kind != LightKind::environment || sky.has_suns);
+// By light: the area (m^2) of the mesh that it is a triangle of, whose triangles lie side by side; 0 for other lights.
+std::vector<double> areas_of_meshes(const LightTables& lights) {
+    std::vector<double> areas(size_t(lights.count), 0.0);
+    const auto is_triangle = [&](int32_t i) { return i < lights.count && LightKind(lights.lights[i].kind) == LightKind::triangle; };
+    for (int32_t first = 0, end = 0; first < lights.count; first = end) {
+        double area = 0;
+        for (end = first; is_triangle(end) && lights.lights[end].part == lights.lights[first].part; ++end)
+            if (lights.lights[end].inverse_area > 0) area += 1 / double(lights.lights[end].inverse_area);
+        std::fill(areas.begin() + first, areas.begin() + end, area);
+        end = std::max(end, first + 1);
+    }
+    return areas;
+}
+
+// Of other lights, rays find the reflection by weak reflectors. `mesh_area`: of the mesh of a triangle.
+bool emits_to_weak_reflector(const LightRecord& light, double mesh_area, const CasterSphere& caster, const EnvironmentLight& sky) {
+    switch (LightKind(light.kind)) {
+    case LightKind::triangle: {
+        const Vec3 to = caster.center - light.position;
+        return mesh_area <= max_small_solid_angle * std::max(double(dot(to, to)), double(caster.radius) * double(caster.radius));
+    }
+    case LightKind::environment: return sky.has_suns;
+    default: return true;
+    }
 }
 
 EnvironmentLight light_of_environment(const SceneTables& tables) {
@@ -64,11 +88,23 @@ EnvironmentLight light_of_environment(const SceneTables& tables) {
 
 } // namespace
 
+bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTables& casters) {
+    const int64_t weak = casters.count - tables.casters.count;
+    if (weak <= 0 || tables.lights.count * weak > LightPathEmission::max_pairs) return false;
+    const EnvironmentLight sky = light_of_environment(tables);
+    const std::vector<double> mesh_areas = areas_of_meshes(tables.lights);
+    for (int32_t i = 0; i < tables.lights.count; ++i)
+        for (int32_t k = tables.casters.count; k < casters.count; ++k)
+            if (emits_to_weak_reflector(tables.lights.lights[i], mesh_areas[size_t(i)], casters.spheres[k], sky)) return true;
+    return false;
+}
+
 LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits)
     : casters_(tables.emission_casters), scene_(scene), lights_(tables.lights.count) {
     const size_t columns = size_t(casters_.count) + 1;
     if (casters_.count == 0 || lights_ == 0 || int64_t(lights_) * int64_t(columns) > max_pairs) return;
     const EnvironmentLight sky = light_of_environment(tables);
+    const std::vector<double> mesh_areas = areas_of_meshes(tables.lights);
     std::vector<double> flux(size_t(lights_) * columns);
     double aimed = 0, all = 0;
     for (size_t i = 0; i < size_t(lights_); ++i) {
@@ -79,7 +115,7 @@ LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphe
             f = flux_of_pair(light, k + 1 < columns ? casters_.spheres[k] : scene_, sky.integral);
             if (!std::isfinite(f)) f = 0;
             const bool is_weak = k >= size_t(tables.casters.count) && k + 1 < columns; // after mirrors and glass, before the scene
-            if (is_weak) f *= emits_to_weak_reflectors(light, sky) ? weak_share : 0;
+            if (is_weak) f *= emits_to_weak_reflector(light, mesh_areas[i], casters_.spheres[k], sky) ? weak_share : 0;
             (k + 1 < columns ? aimed : all) += f;
         }
     }

@@ -12,6 +12,10 @@
 
 namespace blush {
 
+// True if some light emits light paths towards weak reflectors (Smoothness::reflects_weakly): one that rays rarely find. `casters`: those
+// of `tables`, then weak reflectors.
+bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTables& casters);
+
 // Pairs of lights and casters, for one image. Sampled with the density of emission_density().
 class LightPathEmission {
 public:

@@ -71,6 +71,13 @@ Scene bulb_before_wall(float radius) {
     return scene;
 }
 
+// The same as an emissive mesh.
+Scene lamp_before_wall(float radius) {
+    Scene scene = dark_terrace(lambert(albedo), plastic(0), 3, 0.6f);
+    place(scene, sphere(false), emitter(100), at({0, 2.5f, 3}, radius));
+    return scene;
+}
+
 // No more than one reflection: neither light from the floor by the wall, nor twice from the wall.
 RenderSettings one_reflection(int64_t spp) {
     RenderSettings settings = settings_for(16, 16, spp);
@@ -118,7 +125,7 @@ TEST(WeakReflections, AreThoseThatPathsOfTheCameraFind) {
     Material coated = lambert(0.3f);
     coated.clearcoat = 1;
     coated.clearcoat_roughness = 0.15f;
-    std::vector<Scene> scenes{sunny_sky(3000), bulb_before_wall(0.4f)};
+    std::vector<Scene> scenes{sunny_sky(3000), bulb_before_wall(0.4f), lamp_before_wall(0.3f)};
     for (const Material& wall : {plastic(0.1f), plastic(0.15f), coated}) scenes.push_back(terrace(0.1f, plastic(0.6f), wall, 3, 0.6f));
     for (size_t k = 0; k < scenes.size(); ++k)
         EXPECT_TRUE(
@@ -215,10 +222,11 @@ TEST(WeakReflections, OfEvenSkiesAreLeftToRays) {
     }
 }
 
-// A lamp of an area is found by rays, however a weak reflector shows it.
-TEST(WeakReflections, AreGivenLightPathsBySunsAndBulbsAndNotByMeshes) {
+// A lamp of a large area is found by rays, however a weak reflector shows it; a small one is not.
+TEST(WeakReflections, AreGivenLightPathsByLightsThatAreSmall) {
     Scene scene = terrace(real_sun, lambert(albedo), window_glass(), 3, 0.3f);
     place(scene, ceiling_quad(0.5f, 2.5f), emitter(10));
+    place(scene, ceiling_quad(0.1f, 2.4f), emitter(20));
     place_light(scene, caustic_light(Light::Kind::point, 100, 0.05f), at({0, 2.5f, 3}));
     RenderScene compiled;
     compiled.update(expand_area_lights(scene), settings_for(8, 8, 1), full_plan(), Workers(1));
@@ -227,14 +235,26 @@ TEST(WeakReflections, AreGivenLightPathsBySunsAndBulbsAndNotByMeshes) {
     EXPECT_EQ(tables.casters.count, 0);
     const LightPathEmission emission(tables, compiled.bounding_sphere());
     const EmissionTables pairs = emission.tables(1);
-    int small = 0;
+    int small = 0, large = 0;
     for (int32_t light = 0; light < pairs.lights; ++light) {
-        const bool of_mesh = LightKind(tables.lights.lights[light].kind) == LightKind::triangle;
-        EXPECT_EQ(pairs.chances[2 * light] > 0, !of_mesh);
-        small += !of_mesh;
+        const LightRecord& record = tables.lights.lights[light];
+        const bool of_large_mesh = LightKind(record.kind) == LightKind::triangle && record.emission.x == 10;
+        EXPECT_EQ(pairs.chances[2 * light] > 0, !of_large_mesh);
+        (of_large_mesh ? large : small) += 1;
     }
-    EXPECT_EQ(small, 2);
-    EXPECT_GT(pairs.lights, 2);
+    EXPECT_EQ(large, 2);
+    EXPECT_EQ(small, 4) << "the sun, the bulb and two triangles";
+}
+
+// The area of a mesh counts, not that of its triangles.
+TEST(WeakReflections, OfLargeMeshesOfSmallTrianglesAreLeftToRays) {
+    for (const auto& [scale, casters] : {std::pair(0.1f, 1), std::pair(0.6f, 0)}) {
+        Scene scene = dark_terrace(lambert(albedo), plastic(0), 3, 0.6f);
+        place(scene, sphere(false), emitter(10), at({0, 2.5f, 3}, scale));
+        RenderScene compiled;
+        compiled.update(scene, settings_for(8, 8, 1), full_plan(), Workers(1));
+        EXPECT_EQ(compiled.tables().emission_casters.count, casters) << scale;
+    }
 }
 
 } // namespace
