@@ -4,6 +4,7 @@
 #include "core/sampling.h"
 #include "render/materials/material_factors.h"
 #include "render/materials/material_layers.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +57,9 @@ template <class Visit> void each_triangle(const Geometry& geometry, const Visit&
     const size_t count = geometry.triangle_count(), stride = 1 + count / max_visited_triangles;
     for (size_t t = 0; t < count; t += stride) {
         const uint32_t* corners = geometry.indices.data() + 3 * t;
-        const Vec3& a = geometry.positions[corners[0]];
-        const double area = 0.5 * double(length(cross(geometry.positions[corners[1]] - a, geometry.positions[corners[2]] - a)));
+        const Vec3d a = to_double(geometry.positions[corners[0]]);
+        const Vec3d b = to_double(geometry.positions[corners[1]]) - a, c = to_double(geometry.positions[corners[2]]) - a;
+        const double area = 0.5 * length(cross(b, c));
         if (std::isfinite(area)) visit(corners, area);
     }
 }

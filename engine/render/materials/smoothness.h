@@ -27,7 +27,7 @@ Smoothness smoothness_of(const Material& material);
 Smoothness largest_of(const Smoothness& a, const Smoothness& b);
 // True if textures decide where the material is smooth, and the factors allow it.
 bool is_smooth_by_texture(const Material& material);
-// True if some texture could make such a surface of it, or it is one.
+// True if the material casts caustics, or textures may make it do so.
 bool may_cast_caustics(const Material& material);
 
 // Of the material `id` on this geometry: the mean over 256 points, evenly spread over its area in object space, with textures that are

@@ -113,6 +113,11 @@ TEST(Smoothness, CountsAreaNotTriangles) {
             .reflects_weakly;
     };
     EXPECT_NEAR(share(g), 0.9f, 1.f / 256);
+    for (const float scale : {1e-25f, 1e25f}) {
+        Geometry scaled = g;
+        for (Vec3& p : scaled.positions) p = p * scale;
+        EXPECT_NEAR(share(scaled), 0.9f, 1.f / 256) << scale;
+    }
     positions[0].x = std::numeric_limits<float>::quiet_NaN();
     g.positions.assign(positions.begin(), positions.end());
     EXPECT_EQ(share(g), 1) << "a triangle without a finite area has no points";
