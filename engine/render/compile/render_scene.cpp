@@ -87,7 +87,7 @@ void RenderScene::update_caustic_casters(const Scene& scene, const RenderSetting
     tables_.casters = caustic_casters_.mirrors_and_glass();
     const CausticCasterTables all = caustic_casters_.tables();
     tables_.emission_casters = emits_to_weak_reflectors(tables_, all) ? all : tables_.casters;
-    tables_.guides.casters = can_be_hit ? tables_.casters : CausticCasterTables{};
+    tables_.guides.casters = can_be_hit ? caustic_casters_.guides() : CausticCasterTables{};
 }
 
 // Records of emissive meshes, if these, their materials or area lights changed.

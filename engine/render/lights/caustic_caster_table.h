@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "shading/caustic_guiding.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -27,7 +28,8 @@ const char* why_no_guides(const CausticCasterTables& guides, const CausticCaster
 // Builds the list without reading all vertices at each edit: caches the spheres of geometries.
 class CausticCasterTable {
 public:
-    static constexpr size_t max_casters = 8; // the largest ones; every diffuse vertex loops over all of them
+    // The largest ones. Every density of emission loops over all casters, every diffuse vertex over all guides.
+    static constexpr size_t max_casters = 32, max_guides = 8;
 
     // Which casters an image needs. Weak reflectors: see Smoothness.
     struct Wanted {
@@ -40,6 +42,8 @@ public:
     // Mirrors and glass, then weak reflectors.
     CausticCasterTables tables() const { return {spheres_.data(), int32_t(spheres_.size())}; }
     CausticCasterTables mirrors_and_glass() const { return {spheres_.data(), mirrors_and_glass_}; }
+    // Those that diffuse surfaces sample directions towards.
+    CausticCasterTables guides() const { return {spheres_.data(), std::min(mirrors_and_glass_, int32_t(max_guides))}; }
 
 private:
     std::vector<CasterSphere> spheres_;

@@ -1,0 +1,46 @@
+// Which casters are kept of many: the largest ones, more for light paths than for the directions that surfaces sample.
+#include "render/lights/caustic_caster_table.h"
+
+#include "render/compile/render_scene.h"
+#include "tests/render/integrator/caustic_images.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace blush::test::TEST_FILE {
+namespace {
+
+// Mirror balls in rows on a floor; the radius of ball i is `radius(i)`.
+template <class Radius> Scene mirror_balls(int count, const Radius& radius) {
+    Scene scene;
+    place(scene, floor_quad(4), lambert(0.6f));
+    for (int i = 0; i < count; ++i)
+        place(scene, sphere(false), metal(0), at({0.5f * float(i % 4) - 0.75f, 0.25f, 0.5f * float(i / 4) - 0.5f}, radius(i)));
+    place_light(scene, caustic_light(Light::Kind::point, 100, 0.3f), at({0.5f, 3, 0.5f}));
+    scene.view = looking({0, 3, 3}, {0, 0, 0}, 0.6f);
+    return scene;
+}
+
+TEST(CausticCasters, AreTheLargestOnes) {
+    const auto radius = [](int i) { return 0.1f + 0.001f * float(i); };
+    RenderScene compiled;
+    compiled.update(mirror_balls(40, radius), settings_for(8, 8, 1), full_plan(), Workers(1));
+    const CausticCasterTables& all = compiled.tables().emission_casters;
+    ASSERT_EQ(all.count, 32);
+    EXPECT_EQ(compiled.tables().casters.count, 32);
+    EXPECT_EQ(compiled.tables().guides.casters.count, 8) << "each diffuse vertex loops over them";
+    for (int k = 0; k < all.count; ++k) EXPECT_NEAR(all.spheres[k].radius, radius(39 - k), 1e-4f);
+}
+
+// Light paths towards all of them have the density that their weights count: the image is that without light paths.
+TEST(CausticCasters, OfAScenesManyBallsBiasNothing) {
+    const Scene scene = mirror_balls(12, [](int) { return 0.2f; });
+    RenderSettings off = settings_for(12, 12, 256);
+    off.caustics = CausticStrategy::off;
+    EXPECT_TRUE(same_means(caustic_blocks(scene, settings_for(12, 12, 16), {.light_path_share = 1.f}, "light paths", true, 24, 1),
+                           caustic_blocks(scene, off, {}, "light paths", false, 24, 100)));
+}
+
+} // namespace
+} // namespace blush::test::TEST_FILE
