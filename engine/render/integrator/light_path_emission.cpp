@@ -82,15 +82,21 @@ bool emits_to_weak_reflector(const LightRecord& light, double mesh_area, const C
     }
 }
 
+// The first casters, so many that their pairs with all lights are not too many.
+CausticCasterTables aimed_at(const CausticCasterTables& casters, int32_t lights) {
+    const int64_t columns = LightPathEmission::max_pairs / std::max(lights, 1);
+    return {casters.spheres, int32_t(std::clamp<int64_t>(columns - 1, 0, casters.count))};
+}
+
 EnvironmentLight light_of_environment(const SceneTables& tables) {
     return tables.lights.samples_environment ? measure_light(tables.environment) : EnvironmentLight{};
 }
 
 } // namespace
 
-bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTables& casters) {
-    const int64_t weak = casters.count - tables.casters.count;
-    if (weak <= 0 || tables.lights.count * weak > LightPathEmission::max_pairs) return false;
+bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTables& all) {
+    const CausticCasterTables casters = aimed_at(all, tables.lights.count);
+    if (casters.count <= tables.casters.count) return false;
     const EnvironmentLight sky = light_of_environment(tables);
     const std::vector<double> mesh_areas = areas_of_meshes(tables.lights);
     for (int32_t i = 0; i < tables.lights.count; ++i)
@@ -100,9 +106,9 @@ bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTabl
 }
 
 LightPathEmission::LightPathEmission(const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits)
-    : casters_(tables.emission_casters), scene_(scene), lights_(tables.lights.count) {
+    : casters_(aimed_at(tables.emission_casters, tables.lights.count)), scene_(scene), lights_(tables.lights.count) {
     const size_t columns = size_t(casters_.count) + 1;
-    if (casters_.count == 0 || lights_ == 0 || int64_t(lights_) * int64_t(columns) > max_pairs) return;
+    if (casters_.count == 0 || lights_ == 0) return;
     const EnvironmentLight sky = light_of_environment(tables);
     const std::vector<double> mesh_areas = areas_of_meshes(tables.lights);
     std::vector<double> flux(size_t(lights_) * columns);

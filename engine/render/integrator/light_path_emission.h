@@ -19,12 +19,12 @@ bool emits_to_weak_reflectors(const SceneTables& tables, const CausticCasterTabl
 // Pairs of lights and casters, for one image. Sampled with the density of emission_density().
 class LightPathEmission {
 public:
-    // No more pairs: the table would be slower than it is useful.
+    // No more pairs: the table would be slower than it is useful. Beside many lights, fewer casters are aimed at.
     static constexpr int64_t max_pairs = 1 << 20;
 
     LightPathEmission() = default;
     // For lights that NEE can sample, of these those for which `emits(record)` is true. `scene`: contains all surfaces. Empty if no light
-    // reaches a caster, or there are too many pairs.
+    // reaches a caster, or there are more than max_pairs / 2 lights.
     LightPathEmission(
         const SceneTables& tables, const CasterSphere& scene, const std::function<bool(int32_t)>& emits = [](int32_t) { return true; });
 

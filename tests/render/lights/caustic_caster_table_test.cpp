@@ -2,11 +2,13 @@
 #include "render/lights/caustic_caster_table.h"
 
 #include "render/compile/render_scene.h"
+#include "render/integrator/light_path_emission.h"
 #include "tests/render/integrator/caustic_images.h"
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include <cstdint>
+#include <memory>
 
 namespace blush::test::TEST_FILE {
 namespace {
@@ -31,6 +33,27 @@ TEST(CausticCasters, AreTheLargestOnes) {
     EXPECT_EQ(compiled.tables().casters.count, 32);
     EXPECT_EQ(compiled.tables().guides.casters.count, 8) << "each diffuse vertex loops over them";
     for (int k = 0; k < all.count; ++k) EXPECT_NEAR(all.spheres[k].radius, radius(39 - k), 1e-4f);
+}
+
+// A lamp of 45,000 triangles above: pairs with 22 of them are not too many.
+TEST(CausticCasters, BesideManyLightsAreFewer) {
+    Geometry lamp;
+    constexpr int n = 150;
+    for (int y = 0; y <= n; ++y)
+        for (int x = 0; x <= n; ++x) lamp.positions.push_back({float(x) / n, 3, float(y) / n});
+    for (uint32_t y = 0; y < n; ++y)
+        for (uint32_t x = 0; x < n; ++x) {
+            const uint32_t at = y * (n + 1) + x;
+            for (const uint32_t corner : {at, at + 1, at + n + 1, at + 1, at + n + 2, at + n + 1}) lamp.indices.push_back(corner);
+        }
+    Scene scene = mirror_balls(40, [](int) { return 0.2f; });
+    place(scene, std::make_shared<const Geometry>(lamp), emitter(10));
+    RenderScene compiled;
+    compiled.update(scene, settings_for(8, 8, 1), full_plan(), Workers(1));
+    ASSERT_EQ(compiled.tables().lights.count, 45001);
+    const LightPathEmission emission(compiled.tables(), compiled.bounding_sphere());
+    ASSERT_FALSE(emission.empty());
+    EXPECT_EQ(emission.tables(1).casters.count, 22);
 }
 
 // Light paths towards all of them have the density that their weights count: the image is that without light paths.
