@@ -15,8 +15,8 @@ struct UsedMaterials {
     std::vector<Id<Material>> ids;
     std::vector<Id<Material>> alpha;             // not opaque
     std::vector<Id<Material>> emissive;          // their triangles are lights
-    std::vector<Id<Material>> casters;           // of caustics, wherever they are
-    std::vector<Id<Material>> weak_casters;      // of light of small lights (Smoothness::reflects_weakly)
+    std::vector<Id<Material>> casters;           // cast caustics, by their factors alone
+    std::vector<Id<Material>> weak_casters;      // weak reflectors (Smoothness::reflects_weakly), by their factors alone
     std::vector<Id<Material>> smooth_by_texture; // in neither of these lists, nor in `smooth`: see PartSmoothness
     std::set<int> uv_sets;                       // that their textures read
     bool tangents = false;

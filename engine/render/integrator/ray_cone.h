@@ -5,7 +5,7 @@
 //
 // At the camera the cone is half a pixel wide, less than the pixel filter, which does the rest. Flat specular surfaces pass the
 // cone on. Curved ones are not handled: behind them textures are unfiltered. So they are behind rough lobes, whose cone would be wide:
-// a mean roughness reflects other than its parts do, and light paths, which do not know this cone, would show another image.
+// a mean roughness does not reflect as the texels do, and light paths do not know this cone, so they would converge to another image.
 #pragma once
 
 #include "render/compile/scene_tables.h"
@@ -31,7 +31,7 @@ template <class F> F cone_width(const CameraRecord& camera, const EstimatorSetti
     return max(F(path.cone + spread * t), F(0.f));
 }
 
-// Cone of the path leaving a surface with footprint `width`.
+// Cone of the path leaving a surface with footprint `width`: none behind rough lobes and curved surfaces.
 template <class F> F scattered_cone(const F& width, const Mask<F>& delta, const Mask<F>& flat) {
     return select(delta && flat, width, F(-infinity));
 }

@@ -1,5 +1,5 @@
-// How smooth surfaces are: which of them focus light, and which light of lights without size is found there. Where textures decide,
-// points of the surface are looked up.
+// How smooth surfaces are: whether they cast caustics, reflect small lights weakly, or have delta lobes. Where textures decide, points of
+// the surface are looked up.
 #pragma once
 
 #include "render/materials/material_table.h"
@@ -7,16 +7,16 @@
 
 namespace blush {
 
-// Shares of a surface's area in [0, 1].
+// Shares of a surface's area in [0, 1] that are:
 struct Smoothness {
     // Smooth or nearly smooth mirrors and glass, whose caustics NEE rarely or never finds.
     float casts_caustics = 0;
     // Other smooth or nearly smooth surfaces that reflect some light: window glass, plastic, varnish. The few rays that they reflect
     // rarely find a small light, and light paths alone find lights without size there.
     float reflects_weakly = 0;
-    // Reflects by a delta lobe, of itself or of its clear coat.
+    // Surfaces that reflect by a delta lobe, of the base or of the clear coat.
     float is_mirror = 0;
-    // Refracts by a delta lobe; not panes, which pass light straight through (thin_transmission.h).
+    // Surfaces that refract by a delta lobe; not panes, which pass light straight through (thin_transmission.h).
     float is_glass = 0;
     bool operator==(const Smoothness&) const = default;
 };

@@ -163,7 +163,7 @@ TEST(WeakReflections, OfRoughnessByATextureAreThoseOfTheFactor) {
         }
 }
 
-// Fine checks of gloss: their mean roughness would reflect the sun other than they do, so no strategy may filter them.
+// Fine checks of gloss: their mean roughness does not reflect the sun as they do, so no strategy may filter them.
 TEST(WeakReflections, OfATextureOfRoughnessAreThoseThatPathsOfTheCameraFind) {
     Scene scene = terrace(0.1f, plastic(0.6f), plastic(1), 3, 0.6f);
     std::vector<Vec3> texels;

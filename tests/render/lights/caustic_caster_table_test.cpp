@@ -57,7 +57,7 @@ TEST(CausticCasters, BesideManyLightsAreFewer) {
 }
 
 // Light paths towards all of them have the density that their weights count: the image is that without light paths.
-TEST(CausticCasters, OfAScenesManyBallsBiasNothing) {
+TEST(CausticCasters, BeyondEightBiasNothing) {
     const Scene scene = mirror_balls(12, [](int) { return 0.2f; });
     RenderSettings off = settings_for(12, 12, 256);
     off.caustics = CausticStrategy::off;

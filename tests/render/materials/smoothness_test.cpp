@@ -90,7 +90,7 @@ TEST(Smoothness, OfTexturesIsTheShareOfTheArea) {
 }
 
 // Padding of a texture atlas is often black: texels that no surface shows do not count.
-TEST(Smoothness, OfTexelsOutsideOfTheSurfaceDoesNotCount) {
+TEST(Smoothness, IgnoresTexelsOutsideOfTheSurface) {
     Textured textured(plastic(1), &Material::metallic_roughness_texture, 2, 2, quarter_smooth);
     textured.edit([](Material& m) { m.metallic_roughness_texture.scale = {0.45f, 0.45f}; });
     EXPECT_EQ(textured.smoothness().reflects_weakly, 1) << "the upper left texel alone";
@@ -193,7 +193,7 @@ TEST(Smoothness, OfASmallPartOfAMirrorIsAWeakReflector) {
     EXPECT_EQ(casters_of(eighth.scene), (Casters{0, 1, true}));
 }
 
-// Edits of the image, of the factor, and of the material of a part compile to the same casters as a fresh start.
+// Edits of the image, of factors, and of the slot of the texture compile to the same casters as a fresh start.
 TEST(Smoothness, FollowsEdits) {
     Textured t(plastic(1), &Material::metallic_roughness_texture, 1, 1, {{0, 1, 0}});
     Light point;
