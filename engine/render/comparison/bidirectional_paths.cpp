@@ -199,7 +199,6 @@ void BidirectionalPaths::trace_light_path(RandomPairs& random) {
     emitted_ = emission_.emit_by(scene, {random.pair(light_dimensions + pair_dimension), random.pair(light_dimensions + point_dimension),
                                          random.pair(light_dimensions + direction_dimension)});
     if (!(emitted_.density > 0)) return;
-    const float camera = camera_cone(scene.camera, context_.settings);
     Direction next;
     next.path.ray = {emitted_.origin, emitted_.direction};
     next.path.beta = emitted_.flux;
@@ -209,8 +208,7 @@ void BidirectionalPaths::trace_light_path(RandomPairs& random) {
         const Path<float> path = next.path;
         const Hit<float> hit = hit_by(path, light_salt + bounce, other_ray_mask);
         if (hit.geometry < 0 || hit.instance == sphere_instance) return;
-        const Vec3 to_eye = path.ray.origin + path.ray.direction * hit.t - scene.camera.position;
-        Vertex v = vertex_at(path, hit, scene.camera.orthographic ? camera : length(to_eye) * camera);
+        Vertex v = vertex_at(path, hit, 0); // textures are not filtered: see ray_cone.h
         if (!v.p.scatters) return;
         v.density = next.density;
         if (bounce == 0) {

@@ -19,16 +19,13 @@ bool takes_photons(const HitShading& p, PhotonSelection::At at) {
 void shade_photons(const KernelContext& context, TileScratch& scratch, const PathQueue& now, PathQueue& next, int queue, int bounce,
                    const PhotonSelection& selection, std::vector<Photon>& photons) {
     constexpr Features s = comparison_features;
-    const CameraRecord& camera = context.scene->camera;
-    const float cone = camera_cone(camera, context.settings);
     next.size = 0;
     for (int k = 0; k < now.size; ++k) {
         const Hit<float> hit = load_hit<float>(scratch.hits, k);
         if (hit.geometry < 0 || hit.instance == sphere_instance) continue;
         Path<float> path = load_path<s, float>(now, k);
         path.dispersed = now.dispersed[k];
-        const Vec3 to_eye = path.ray.origin + path.ray.direction * hit.t - camera.position;
-        const HitShading p = shade_hit(context, path, hit, camera.orthographic ? cone : length(to_eye) * cone);
+        const HitShading p = shade_hit(context, path, hit, 0); // textures are not filtered: see ray_cone.h
         if (!p.scatters) continue;
         if (bounce >= selection.min_bounces && takes_photons(p, selection.at)) {
             const float amount = luminance(scratch.light_paths->emitted[size_t(path.slot)].flux);
