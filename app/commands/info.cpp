@@ -189,7 +189,7 @@ void add_info_command(CLI::App& app, std::function<int()>& run) {
     sub->add_option("scene", command->scene, "glTF file (.gltf, .glb)")->required()->type_name("SCENE");
     sub->add_flag("--measure", command->measure,
                   "Measure the effect of specialisation: the speed of this scene's kernel and of the kernel with all features, in turns "
-                  "for a few seconds, the start-up time of the view transform and of the denoiser, and what path reuse, learned "
+                  "for a few seconds, the start-up time of OpenImageIO, the view transform and the denoiser, and what path reuse, learned "
                   "visibility, learned portals, path guiding, learned roulette and smooth edges gain and cost");
     add_scene_selection_options(*sub, command->overrides.scene_selection);
     add_common_options(*sub, command->common);

@@ -1,5 +1,7 @@
 #include "app/editor/editor_display.h"
 
+#include "app/commands/render/command_feature_report.h"
+
 #include <chrono>
 
 namespace blush {
@@ -72,10 +74,11 @@ void EditorDisplay::meter(AutoExposure rule, const FramePtr& frame) {
 }
 
 void EditorDisplay::update_feature_report(const SessionStatus& status) {
-    if (!feature_report_.empty() && status.denoised_with == denoised_with_) return;
+    const FeatureUse image_library = image_library_use();
+    if (!feature_report_.empty() && status.denoised_with == denoised_with_ && feature_report_.front().used == image_library.used) return;
     denoised_with_ = status.denoised_with;
     feature_report_ = denoiser_feature_report(weights_, denoised_with_);
-    feature_report_.insert(feature_report_.begin(), view_transform_);
+    feature_report_.insert(feature_report_.begin(), {image_library, view_transform_});
 }
 
 } // namespace blush

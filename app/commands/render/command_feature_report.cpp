@@ -3,6 +3,7 @@
 #include "app/commands/denoising.h"
 #include "app/common/assets_dir.h"
 #include "color/color_management.h"
+#include "io/codec/image_codec.h"
 
 #include <chrono>
 
@@ -18,8 +19,16 @@ template <class Make> std::optional<double> seconds_to(const Make& make) {
 
 } // namespace
 
+FeatureUse image_library_use() {
+    const std::optional<double> seconds = image_codec_load_seconds();
+    return {
+        "files", "OpenImageIO", seconds.has_value(), seconds ? "an image file was read or written" : "no image file was read or written",
+        {},      seconds};
+}
+
 FeatureReport with_command_features(const FeatureReport& renderer, const CommandFeatures& made) {
     FeatureReport feature_report = renderer;
+    feature_report.push_back(made.image_library);
     feature_report.push_back(
         {"display", "view transform", made.display, made.display ? "the output is display-encoded" : "the output is scene-linear"});
     feature_report.back().seconds = made.display_seconds;
@@ -33,6 +42,7 @@ FeatureReport with_command_features(const FeatureReport& renderer, const Command
 
 CommandFeatures measure_command_features(unsigned threads) {
     CommandFeatures made;
+    if (!made.image_library.used) made.image_library.seconds = seconds_to([] { return bool(image_codec("")); });
     made.display_seconds = seconds_to([] {
         const Result<ColorManagement> color = ColorManagement::load(assets_dir());
         float grey[3] = {0.18f, 0.18f, 0.18f};

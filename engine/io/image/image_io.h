@@ -1,4 +1,5 @@
-// Reads (image_reading.cpp) and writes (image_writing.cpp) images, with OpenImageIO. Treats any input as hostile.
+// Reads (image_reading.cpp) and writes (image_writing.cpp) images. Treats any input as hostile. The first call of a process loads
+// OpenImageIO (io/codec/image_codec.h), if it is not a JPEG that is written.
 #pragma once
 
 #include "core/result.h"
@@ -82,6 +83,8 @@ Result<LayeredImage> read_layers(const std::filesystem::path& file, const ImageL
 Result<std::vector<LayeredImage>> read_parts(const std::filesystem::path& file, const ImageLimits& limits = {});
 // Reads the text metadata only.
 Result<std::map<std::string, std::string>> read_metadata(const std::filesystem::path& file, const ImageLimits& limits = {});
+// Loads what writing `file` needs: call it before a long render, so that a missing library is reported before it, not after it.
+Result<void> load_encoder(const std::filesystem::path& file);
 constexpr float max_half = 65504;
 // Writes an EXR: float32 unless a channel is uint or half, ZIP compression. Atomic: written to a temporary name beside the target
 // and renamed.

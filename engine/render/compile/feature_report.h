@@ -22,7 +22,7 @@ struct PilotFigures {
 };
 
 struct FeatureUse {
-    std::string part; // "kernel", "film", "geometry", "textures", "lights", "display", "denoiser"
+    std::string part; // "kernel", "film", "geometry", "textures", "lights", "files", "display", "denoiser"
     std::string name;
     bool used = false;
     std::string why; // "a material reads a texture", "no light has a size"

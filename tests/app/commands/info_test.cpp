@@ -27,6 +27,9 @@ TEST(InfoCommand, JsonHasTheKeysOfTheContract) {
     EXPECT_EQ(test::keys_of(json["kernel"]), (std::vector<std::string>{"features", "left_out", "made", "name", "pilots"}));
     EXPECT_FALSE(json["kernel"]["left_out"].empty());
     for (const Json& left_out : json["kernel"]["left_out"]) EXPECT_FALSE(left_out["why"].get<std::string>().empty()) << left_out;
+    const auto is_image_library = [](const Json& use) { return use["name"] == "OpenImageIO"; };
+    EXPECT_TRUE(std::ranges::any_of(json["kernel"]["left_out"], is_image_library));
+    EXPECT_FALSE(std::ranges::any_of(json["kernel"]["made"], is_image_library));
 }
 
 // The feature report equals that of a render with default options.

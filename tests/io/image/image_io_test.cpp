@@ -1,5 +1,5 @@
+#include "io/image/image_format.h"
 #include "io/image/image_io.h"
-#include "io/image/image_truncation.h"
 #include "tests/io/gltf/builder.h"
 
 #include <gtest/gtest.h>

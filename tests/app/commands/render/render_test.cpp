@@ -389,5 +389,25 @@ TEST(Render, EveryShippedSceneRenders) {
     }
 }
 
+// The dynamic linker lists every library that it loads. OpenImageIO brings some 240, which take longer to load than the rest to start.
+TEST(RenderCommand, LoadsOpenImageIoOnlyForWhatNeedsIt) {
+    const test::TemporaryFolder folder;
+    const auto loads = [](const std::vector<std::string>& arguments) {
+        std::vector<std::string> command{"/usr/bin/env", "LD_DEBUG=files", BLUSH_BINARY};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        const Finished finished = test::run(command);
+        EXPECT_EQ(finished.exit_code, 0);
+        EXPECT_NE(finished.err.find("libembree3"), std::string::npos) << "the linker lists nothing";
+        return finished.err.find("libOpenImageIO") != std::string::npos;
+    };
+    const auto render = [&](const char* file) {
+        return loads({"render", scene_file("furnace"), "-o", folder / file, "--size", "8x8", "--spp", "1", "--quiet"});
+    };
+    EXPECT_FALSE(loads({"info", scene_file("furnace")}));
+    EXPECT_FALSE(render("a.jpg")) << "libjpeg encodes";
+    EXPECT_TRUE(render("a.png"));
+    EXPECT_TRUE(render("a.exr"));
+}
+
 } // namespace
 } // namespace blush::TEST_FILE

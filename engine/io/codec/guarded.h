@@ -1,9 +1,7 @@
-// What image_reading.cpp and image_writing.cpp share, the only files that use OpenImageIO.
+// Converts exceptions of OpenImageIO and the allocator to errors.
 #pragma once
 
-#include "io/image/image_io.h"
-
-#include <OpenImageIO/imageio.h>
+#include "core/result.h"
 
 #include <algorithm>
 #include <exception>
@@ -12,10 +10,6 @@
 
 namespace blush {
 
-struct ImageHeader {
-    OIIO::ImageSpec spec;
-};
-
 // OpenImageIO's messages have several lines; joins them.
 inline std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -23,7 +17,7 @@ inline std::string one_line(std::string text) {
     return text.empty() ? "unknown reason" : text;
 }
 
-// Runs work(), which returns a Result, and converts exceptions of OpenImageIO and the allocator to an Error. `name`: the file.
+// Runs work(), which returns a Result, and converts its exceptions to an Error. `name`: the file.
 template <class F> auto guarded(const std::string& name, F&& work) -> decltype(work()) {
     try {
         return work();

@@ -1,13 +1,16 @@
-// Detects truncated JPEG and PNG files: checks for the end marker.
+// Detects the format of an image by its first bytes, and truncated JPEG and PNG files by their end marker.
 // Checked before decoding: libjpeg fills the missing part of a truncated file with grey and only warns; OpenImageIO's PNG reader
-// leaks memory. JPEG markers: ITU-T T.81, annex B; PNG chunks:
-// ISO/IEC 15948, clause 5.
+// leaks memory. JPEG markers: ITU-T T.81, annex B; PNG chunks: ISO/IEC 15948, clause 5.
 #pragma once
+
+#include "core/result.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace blush {
 
@@ -49,5 +52,10 @@ inline bool is_complete_png(std::span<const uint8_t> bytes) {
     }
     return false;
 }
+
+// "png", "jpeg", "openexr", "hdr", "webp" or "bmp", as OpenImageIO calls them. The only decoders that are used: reduces the attack
+// surface, and special names such as "x.null" have no effect. TIFF is excluded since its decoder fills truncated files with black and
+// reports success. Errors, of file `name`: another format, truncated.
+Result<std::string_view> detect_format(std::span<const uint8_t> bytes, const std::string& name);
 
 } // namespace blush
