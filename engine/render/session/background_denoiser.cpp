@@ -1,5 +1,7 @@
 #include "render/session/background_denoiser.h"
 
+#include "render/session/halved_frame.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -135,9 +137,9 @@ DenoiseOptions BackgroundDenoiser::options_for(const Task& task, DenoiseQuality 
 }
 
 // One input for the whole image, or one for each light group.
-Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, DenoiseQuality quality) const {
+Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, const Frame& frame, DenoiseQuality quality) const {
     std::vector<Denoised> all;
-    for (const DenoiseInput& input : denoise_inputs(*task.frame)) {
+    for (const DenoiseInput& input : denoise_inputs(frame)) {
         Result<std::optional<Denoised>> result =
             denoise_(input, options_for(task, quality, all.size()), [&] { return is_wanted_by_now(task); });
         if (!result) return result.error();
@@ -147,29 +149,31 @@ Result<std::vector<Denoised>> BackgroundDenoiser::denoise_all(const Task& task, 
     return all;
 }
 
-BackgroundDenoiser::Outcome BackgroundDenoiser::finish(const Task& task, DenoiseQuality quality, std::vector<Denoised> planes) {
+BackgroundDenoiser::Outcome BackgroundDenoiser::finish(const FramePtr& frame, DenoiseQuality quality, std::vector<Denoised> planes) {
     const double begun = now();
-    std::shared_ptr<DenoisedImage> denoised = denoised_image(*task.frame, quality, std::move(planes), &*workers_);
-    output_.samples = task.frame->samples;
+    std::shared_ptr<DenoisedImage> denoised = denoised_image(*frame, quality, std::move(planes), &*workers_);
+    output_.samples = frame->samples;
     output_.is_corrected = denoised->denoised.bias_corrected;
     const double made = now();
-    history_.follow(task.frame, *denoised, &*workers_);
+    history_.follow(frame, *denoised, &*workers_);
     return {std::move(denoised), {}, now() - begun, made - begun, now() - made};
 }
 
-BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, DenoiseQuality quality) {
+BackgroundDenoiser::Outcome BackgroundDenoiser::denoise(const Task& task, const DenoiseCadence::Decision& decision) {
     return attempt([&]() -> Outcome {
         if (!denoise_) denoise_ = maker_();
         if (!workers_) workers_.emplace(threads_, low_priority_);
-        Result<std::vector<Denoised>> all = denoise_all(task, quality);
+        const DenoiseQuality quality = *decision.quality;
+        const FramePtr frame = decision.halves ? halved(task.frame, &*workers_) : task.frame;
+        Result<std::vector<Denoised>> all = denoise_all(task, *frame, quality);
         if (!all) return {nullptr, all.error().text()};
         if (all->empty()) return {};
         scales_.clear();
         for (const Denoised& d : *all) scales_.push_back(d.exposure_scale);
         scale_image_ = task.image;
-        output_ = task.frame->divider == 1 ? NetworkOutput{task.image, quality, *all} : NetworkOutput();
+        output_ = frame->divider == 1 ? NetworkOutput{task.image, quality, *all} : NetworkOutput();
         const double preparing = all->front().seconds_of_preparation;
-        Outcome outcome = finish(task, quality, *std::move(all));
+        Outcome outcome = finish(frame, quality, *std::move(all));
         outcome.seconds_not_denoising += preparing;
         return outcome;
     });
@@ -187,7 +191,7 @@ void BackgroundDenoiser::correct_again(std::unique_lock<std::mutex>& lock) {
     const Task task = newest_;
     lock.unlock();
     Outcome outcome;
-    if (is_wanted_by_now(task)) outcome = attempt([&] { return finish(task, output_.quality, output_.planes); });
+    if (is_wanted_by_now(task)) outcome = attempt([&] { return finish(task.frame, output_.quality, output_.planes); });
     lock.lock();
     failure_ = std::move(outcome.failure);
     history_look_ = history_.look();
@@ -245,10 +249,10 @@ void BackgroundDenoiser::run() {
         update_pause();
         lock.unlock();
         const double begun = now(), shut_before = gate_.closed_seconds();
-        Outcome outcome = denoise(task, *decision.quality);
+        Outcome outcome = denoise(task, decision);
         const double seconds = now() - begun - (gate_.closed_seconds() - shut_before) - outcome.seconds_not_denoising;
         lock.lock();
-        cadence_.record(source_of(task.image, *task.frame), *decision.quality, begun, seconds, outcome.denoised != nullptr);
+        cadence_.record(source_of(task.image, *task.frame), decision, begun, seconds, outcome.denoised != nullptr);
         failure_ = std::move(outcome.failure);
         history_look_ = history_.look();
         if (outcome.denoised && outcome.denoised->is_enlarged)

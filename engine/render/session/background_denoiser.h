@@ -88,10 +88,11 @@ private:
 
     void run();
     void correct_again(std::unique_lock<std::mutex>& lock);
-    Outcome finish(const Task& task, DenoiseQuality quality, std::vector<Denoised> planes);
+    Outcome finish(const FramePtr& frame, DenoiseQuality quality, std::vector<Denoised> planes);
     DenoiseOptions options_for(const Task& task, DenoiseQuality quality, size_t group) const;
-    Result<std::vector<Denoised>> denoise_all(const Task& task, DenoiseQuality quality) const;
-    Outcome denoise(const Task& task, DenoiseQuality quality);
+    // `frame`: the task's, or that at half size.
+    Result<std::vector<Denoised>> denoise_all(const Task& task, const Frame& frame, DenoiseQuality quality) const;
+    Outcome denoise(const Task& task, const DenoiseCadence::Decision& decision);
     bool is_wanted(const Task& task) const;
     bool is_wanted_by_now(const Task& task) const; // after the pause gate
 

@@ -10,13 +10,14 @@
 
 namespace blush {
 
-// An image's first full-resolution frame is denoised at once, and again when its samples have doubled, for at most half of the image's
-// render time: the second sample shows the bias of the network (bias_correction.h), and soon raw frames would be better than the last
-// denoised one. Other frames are denoised at most once per second, all together for at most a tenth of the render time. After a while
-// without edits the large network is used, once a quarter of the render time suffices for it: twice the samples are worth more. The final
-// frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window. Rendering pauses for short
-// runs of the small network: on few cores both at once would delay the denoised image by more than the samples are worth.
-// Times are seconds of any monotonic clock.
+// An image's first full-resolution frame is denoised at once: at half size if the full one would take long, since a frame of one sample
+// gains nothing from it; then at full size as soon as there are two samples. It is denoised again when its samples have doubled, for at
+// most half of the image's render time: the second sample shows the bias of the network (bias_correction.h), and soon raw frames would be
+// better than the last denoised one. Other frames are denoised at most once per second, all together for at most a tenth of the render
+// time. After a while without edits the large network is used, once a quarter of the render time suffices for it: twice the samples are
+// worth more. The final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window.
+// Rendering pauses for short runs of the small network: on few cores both at once would delay the denoised image by more than the samples
+// are worth. Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
     static constexpr double min_interval = 1;         // seconds from the start of one run to the start of the next
@@ -27,6 +28,8 @@ public:
     static constexpr double assumed_speed = 0.25;     // seconds per megapixel of the small network before its first run
     static constexpr double idle_seconds = 2;         // without an edit
     static constexpr double idle_share = 0.25;        // of the image's render time, for all runs with one of the large network
+    static constexpr double quick_samples = 2;        // before that many, a frame that takes longer than
+    static constexpr double quick_seconds = 0.1;      // is denoised at half size
     static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
 
     // The properties of a frame that matter here.
@@ -42,6 +45,7 @@ public:
     };
     struct Decision {
         std::optional<DenoiseQuality> quality;                 // denoise the newest frame now
+        bool halves = false;                                   // at half size
         bool pauses_rendering = false;                         // while it runs
         double wait = std::numeric_limits<double>::infinity(); // else: ask again after so many seconds, or when something changes
     };
@@ -56,14 +60,18 @@ public:
     double coarse_speed() const;
     // Records that the run requested by next(), of the newest frame at
     // time `begun`, took `seconds` without preparation of the network; `finished`: it produced an image.
-    void record(const Source& source, DenoiseQuality quality, double begun, double seconds, bool finished);
+    void record(const Source& source, const Decision& run, double begun, double seconds, bool finished);
 
 private:
     bool is_done(DenoiseQuality quality) const;
     bool fits_a_frame() const;
     Decision now_with(DenoiseQuality quality) const;
-    // Estimated seconds for the newest frame; 0 if nothing was denoised yet.
+    // True if the newest frame is denoised at half size, by the small network.
+    bool halves(DenoiseQuality quality) const;
+    // Estimated seconds for the newest frame at full size; 0 if nothing was denoised yet.
     double predicted(DenoiseQuality quality) const;
+    // The same, at half size if that is due.
+    double predicted_run(DenoiseQuality quality) const;
 
     std::optional<Source> newest_;
     std::array<double, 3> seconds_per_megapixel_{}; // of frames at full resolution, by quality; 0: not known
@@ -76,6 +84,7 @@ private:
         double amount = 0; // Source::amount()
         int divider = 1;
         DenoiseQuality quality = DenoiseQuality::fast;
+        bool halved = false;
         double begun = 0;
     };
     std::optional<Done> done_; // the last denoised image

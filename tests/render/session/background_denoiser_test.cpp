@@ -15,13 +15,16 @@ namespace blush::TEST_FILE {
 namespace {
 
 // Of light 1 everywhere, without noise.
-FramePtr frame_of(int64_t samples) {
+FramePtr frame_of(int64_t samples, int width = 32) {
     auto frame = std::make_shared<Frame>();
-    frame->width = 32;
-    frame->height = 24;
+    frame->width = width;
+    frame->height = 3 * width / 4;
     frame->samples = samples;
     const size_t pixels = size_t(frame->width) * size_t(frame->height);
     frame->rgba.assign(4 * pixels, 1);
+    frame->albedo.assign(pixels, Vec3{0.5f, 0.5f, 0.5f});
+    frame->normal.assign(pixels, Vec3{0, 0, 1});
+    frame->depth.assign(pixels, 2);
     if (samples > 1) frame->half_difference.assign(pixels, Vec3{0, 0, 0});
     return frame;
 }
@@ -32,6 +35,7 @@ struct Bench {
         return [this]() -> DenoiseFunction {
             return [this](const DenoiseInput& input, const DenoiseOptions&, const std::function<bool()>&) {
                 ++runs;
+                last_width = input.width;
                 std::this_thread::sleep_for(std::chrono::seconds(1));
                 Denoised denoised;
                 denoised.rgb.assign(3 * size_t(input.width) * size_t(input.height), 0.5f);
@@ -48,7 +52,7 @@ struct Bench {
         return answered.back();
     }
 
-    std::atomic<int> runs{0};
+    std::atomic<int> runs{0}, last_width{0}; // of the last input
     mutable std::mutex mutex;
     std::vector<DenoisedPtr> answered;
     PauseGate gate;
@@ -81,6 +85,27 @@ TEST(BackgroundDenoiser, FramesWithMoreSamplesCorrectTheImageOfTheNetworkWithout
         EXPECT_EQ(bench.last()->samples, samples);
         for (const float v : bench.last()->denoised.rgb) ASSERT_NEAR(v, 1, 1e-5f);
     }
+}
+
+TEST(BackgroundDenoiser, AFirstSampleThatWouldTakeLongIsDenoisedAtHalfSizeAndEnlarged) {
+    Bench bench;
+    bench.denoiser.want(true);
+    bench.denoiser.offer(1, frame_of(1, 1024)); // the first run is expected to take 0.25 s a megapixel
+    ASSERT_TRUE(test::eventually([&] { return bench.answers() == 1; }));
+    ASSERT_TRUE(bench.last());
+    EXPECT_EQ(bench.last_width.load(), 512);
+    EXPECT_EQ(bench.last()->divider, 2);
+    EXPECT_TRUE(bench.last()->is_enlarged) << "by the first hits of the frame";
+    EXPECT_EQ(bench.last()->width, 1024);
+    EXPECT_EQ(bench.last()->height, 768);
+    for (const float v : bench.last()->denoised.rgb) ASSERT_NEAR(v, 0.5f, 1e-5f);
+
+    bench.denoiser.offer(1, frame_of(2, 1024));
+    ASSERT_TRUE(test::eventually([&] { return bench.answers() == 2; }));
+    EXPECT_EQ(bench.last_width.load(), 1024);
+    EXPECT_EQ(bench.last()->divider, 1);
+    EXPECT_FALSE(bench.last()->is_enlarged);
+    EXPECT_TRUE(bench.last()->denoised.bias_corrected);
 }
 
 // A network that runs until it is cancelled, or let go.

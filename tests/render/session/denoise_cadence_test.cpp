@@ -23,6 +23,7 @@ struct Bench {
         double at;
         DenoiseQuality quality;
         int64_t samples;
+        bool halved;
     };
     std::vector<Done> done;
 
@@ -30,11 +31,17 @@ struct Bench {
     // Runs all due tasks.
     void denoise_if_due(const Source& source) {
         for (auto decision = cadence.next(now); decision.quality; decision = cadence.next(now)) {
-            const double took = seconds[size_t(*decision.quality)] * source.megapixels;
-            done.push_back({now, *decision.quality, source.samples});
-            cadence.record(source, *decision.quality, now, took, true);
+            const double took = seconds[size_t(*decision.quality)] * source.megapixels * (decision.halves ? 0.25 : 1);
+            done.push_back({now, *decision.quality, source.samples, decision.halves});
+            cadence.record(source, decision, now, took, true);
             now += took;
         }
+    }
+    // Then the time of the small network is known.
+    void warm_up() {
+        render(999, 4);
+        done.clear();
+        now = 1000;
     }
     // Full-resolution frames, one every tenth of a second; the last one completes the image.
     void render(uint64_t image, int frames) {
@@ -92,9 +99,10 @@ TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
         double spent = 0;
         for (size_t i = 0; i < bench.done.size(); ++i) {
             const auto& d = bench.done[i];
-            spent += bench.seconds[size_t(d.quality)];
+            spent += bench.seconds[size_t(d.quality)] * (d.halved ? 0.25 : 1);
             const bool last = i + 1 == bench.done.size();
-            if (i == 0 || last) continue; // those two are guaranteed at any cost
+            // These are guaranteed at any cost.
+            if (i == 0 || last || bench.done[i - 1].halved) continue;
             if (d.samples >= DenoiseCadence::renewal_growth * bench.done[i - 1].samples) {
                 EXPECT_LE(spent, DenoiseCadence::renewal_share * (d.at - begin) + 1e-9) << "image " << i << " of " << slowness;
                 continue;
@@ -105,8 +113,72 @@ TEST(DenoiseCadence, BetweenRenewalsAtMostOnceASecondAndATenthOfTheTime) {
     }
 }
 
+// A network that takes 0.8 s for the whole image shows nothing sooner than one of half the size.
+TEST(DenoiseCadence, AFirstSampleIsDenoisedAtHalfSizeIfTheFullOneTakesLong) {
+    for (const double megapixel_seconds : {0.09, 0.8}) {
+        Bench bench;
+        bench.seconds[0] = megapixel_seconds;
+        bench.warm_up();
+        bench.render(1, 20);
+        ASSERT_GE(bench.done.size(), 2u);
+        EXPECT_EQ(bench.done[0].samples, 1);
+        EXPECT_EQ(bench.done[0].halved, megapixel_seconds > DenoiseCadence::quick_seconds) << megapixel_seconds;
+        EXPECT_EQ(bench.done[1].quality, fast);
+        for (size_t i = 1; i < bench.done.size(); ++i) EXPECT_FALSE(bench.done[i].halved) << i;
+        if (bench.done[0].halved) { EXPECT_EQ(bench.done[1].samples, 2) << "at full size as soon as that gains something"; }
+    }
+}
+
+TEST(DenoiseCadence, PartsOfAFirstSampleAreDenoisedAtHalfSize) {
+    Bench bench;
+    bench.seconds[0] = 0.8;
+    bench.warm_up();
+    for (int part = 1; part <= 8; ++part) {
+        const Source source{1, 1, 1, false, 1, part / 8.0};
+        bench.offer(source);
+        bench.denoise_if_due(source);
+        bench.now += 0.2;
+    }
+    ASSERT_GE(bench.done.size(), 3u);
+    for (const Bench::Done& d : bench.done) EXPECT_TRUE(d.halved);
+}
+
+TEST(DenoiseCadence, WhatIsCompleteOrHasSamplesIsDenoisedAtFullSize) {
+    for (const Source& source : {Source{1, 1, 1, true, 1}, Source{1, 2, 1, false, 1}}) {
+        Bench bench;
+        bench.seconds[0] = 0.8;
+        bench.warm_up();
+        bench.offer(source);
+        bench.denoise_if_due(source);
+        ASSERT_FALSE(bench.done.empty());
+        EXPECT_FALSE(bench.done[0].halved) << source.samples;
+    }
+}
+
+TEST(DenoiseCadence, APausedFirstSampleIsDenoisedAtFullSizeWhenIdle) {
+    Bench bench;
+    bench.seconds = {0.8, 1.6, 4.8};
+    bench.warm_up();
+    const Source source{1, 1, 1, false, 1};
+    bench.offer(source);
+    bench.denoise_if_due(source);
+    ASSERT_EQ(bench.done.size(), 1u);
+    EXPECT_TRUE(bench.done[0].halved);
+    for (int i = 0; i < 100; ++i) {
+        const double wait = bench.cadence.next(bench.now).wait;
+        if (std::isinf(wait)) break;
+        ASSERT_GT(wait, 0);
+        bench.now += wait + 1e-6;
+        bench.denoise_if_due(source);
+    }
+    ASSERT_EQ(bench.done.size(), 2u);
+    EXPECT_EQ(bench.done[1].quality, base);
+    EXPECT_FALSE(bench.done[1].halved);
+}
+
 TEST(DenoiseCadence, IsRenewedWhenTheSamplesHaveDoubled) {
     Bench bench;
+    bench.warm_up();
     bench.render(1, 20);
     ASSERT_GE(bench.done.size(), 4u);
     EXPECT_EQ(bench.done[0].samples, 1);
@@ -121,7 +193,7 @@ TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
         DenoiseCadence cadence;
         const Source source{1, 1, 1, false, megapixels};
         cadence.offer(source, 0);
-        if (speed > 0) cadence.record(source, fast, 0, speed * megapixels, true);
+        if (speed > 0) cadence.record(source, {fast}, 0, speed * megapixels, true);
         cadence.offer({image, 1000, 1, false, megapixels}, at);
         const auto decision = cadence.next(at);
         EXPECT_TRUE(decision.quality);
@@ -136,6 +208,7 @@ TEST(DenoiseCadence, ShortRunsOfTheSmallNetworkPauseRendering) {
 
 TEST(DenoiseCadence, UsesTheLargeNetworkWhenIdleAndTheBestAtTheEnd) {
     Bench bench;
+    bench.warm_up();
     const double begin = bench.now;
     bench.render(1, 300);
     double spent = 0;
@@ -232,7 +305,7 @@ TEST(DenoiseCadence, AnUnfinishedRunIsDueAgain) {
     Bench bench;
     const Source source{1, 1, 1, false, 1};
     bench.offer(source);
-    bench.cadence.record(source, fast, bench.now, 0.05, false);
+    bench.cadence.record(source, {fast}, bench.now, 0.05, false);
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }
 
@@ -240,7 +313,7 @@ TEST(DenoiseCadence, ADenoisedImageOfAnOlderImageDoesNotCount) {
     Bench bench;
     bench.offer({1, 1, 1, false, 1});
     bench.offer({2, 1, 1, false, 1});
-    bench.cadence.record({1, 1, 1, false, 1}, fast, bench.now, 0.1, true);
+    bench.cadence.record({1, 1, 1, false, 1}, {fast}, bench.now, 0.1, true);
     EXPECT_EQ(bench.cadence.next(bench.now).quality, fast);
 }
 
