@@ -96,6 +96,11 @@ double BackgroundDenoiser::coarse_speed() const {
     return wanted_ && failure_.empty() ? cadence_.coarse_speed() : 0;
 }
 
+double BackgroundDenoiser::speed() const {
+    const std::lock_guard lock(mutex_);
+    return wanted_ && failure_.empty() ? cadence_.speed() : 0;
+}
+
 double BackgroundDenoiser::finishing_seconds(bool enlarges, uint64_t look) const {
     const std::lock_guard lock(mutex_);
     if (enlarges) return enlarging_seconds_;

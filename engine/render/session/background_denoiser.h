@@ -49,6 +49,8 @@ public:
     bool offer(uint64_t image, FramePtr frame);
     // Expected seconds per megapixel to denoise a first, coarse image; 0 if such images are not denoised or the speed is not known yet.
     double coarse_speed() const;
+    // The same of an image of full size.
+    double speed() const;
     // Expected seconds that a first, coarse image takes after its network: to enlarge it by first hits, or to mix it with view history, if
     // there is any of this look (Submission::look).
     double finishing_seconds(bool enlarges, uint64_t look) const;

@@ -28,7 +28,11 @@ double DenoiseCadence::coarse_speed() const {
 }
 
 double DenoiseCadence::predicted(DenoiseQuality quality) const {
-    if (newest_->divider > 1) return coarse_speed() * newest_->megapixels;
+    // Larger coarse frames take the time of a part of the whole one, and what these took besides.
+    if (newest_->divider > 1) {
+        const double beside = std::max(0.0, coarse_speed() - speed()) * std::min(coarse_megapixels_, newest_->megapixels);
+        return speed() > 0 && coarse_megapixels_ > 0 ? speed() * newest_->megapixels + beside : coarse_speed() * newest_->megapixels;
+    }
     const double measured = seconds_per_megapixel_[size_t(quality)];
     const double speed = measured > 0 ? measured : seconds_per_megapixel_[size_t(DenoiseQuality::fast)] * relative_cost[size_t(quality)];
     return speed * newest_->megapixels;
@@ -45,6 +49,11 @@ double DenoiseCadence::predicted_run(DenoiseQuality quality) const { return pred
 bool DenoiseCadence::fits_a_frame() const {
     const double seconds = predicted(DenoiseQuality::fast);
     return seconds > 0 && seconds <= frame_seconds;
+}
+
+// True for a coarse image that is finer than the denoised one before, or as fine, with more samples.
+bool DenoiseCadence::refines() const {
+    return done_ && newest_->divider <= done_->divider && predicted(DenoiseQuality::fast) <= refining_seconds;
 }
 
 bool DenoiseCadence::answers_within_a_frame() const { return newest_ && !done_ && fits_a_frame(); }
@@ -64,7 +73,7 @@ DenoiseCadence::Decision DenoiseCadence::now_with(DenoiseQuality quality) const 
 DenoiseCadence::Decision DenoiseCadence::next(double now) const {
     if (!newest_) return {};
     if (newest_->divider > 1) {
-        if (fits_a_frame() && !is_done(DenoiseQuality::fast)) return now_with(DenoiseQuality::fast);
+        if ((fits_a_frame() || refines()) && !is_done(DenoiseQuality::fast)) return now_with(DenoiseQuality::fast);
         return {};
     }
     if (!done_ || done_->divider > 1) return now_with(DenoiseQuality::fast);
@@ -93,10 +102,13 @@ void DenoiseCadence::record(const Source& source, const Decision& run, double be
     if (!finished) return;
     // The first run of a network touches its memory for the first time, and long runs compete with rendering for the processor. So
     // take the fastest run, and let slower runs raise the estimate only gradually.
+    const bool refined = same_image && done_ && source.divider > 1 && source.divider < done_->divider;
+    if (same_image) done_ = Done{source.amount(), source.divider, quality, run.halves, begun};
+    if (refined) return;
+    if (source.divider > 1) coarse_megapixels_ = source.megapixels;
     double& speed = source.divider > 1 ? coarse_seconds_per_megapixel_ : seconds_per_megapixel_[size_t(quality)];
     const double measured = seconds / std::max(source.megapixels * (run.halves ? half_share : 1), 1e-6);
     speed = speed == 0 || measured < speed ? measured : 0.75 * speed + 0.25 * measured;
-    if (same_image) done_ = Done{source.amount(), source.divider, quality, run.halves, begun};
 }
 
 } // namespace blush

@@ -15,9 +15,9 @@ namespace blush {
 // most half of the image's render time: the second sample shows the bias of the network (bias_correction.h), and soon raw frames would be
 // better than the last denoised one. Other frames are denoised at most once per second, all together for at most a tenth of the render
 // time. After a while without edits the large network is used, once a quarter of the render time suffices for it: twice the samples are
-// worth more. The final frame gets the best quality. A low-resolution frame is denoised if that fits into one frame of the window.
-// Rendering pauses for short runs of the small network: on few cores both at once would delay the denoised image by more than the samples
-// are worth. Times are seconds of any monotonic clock.
+// worth more. The final frame gets the best quality. A coarse frame is denoised if that fits into one frame of the window, or if it
+// refines the one on the screen. Rendering pauses for short runs of the small network: on few cores both at once would delay the
+// denoised image by more than the samples are worth. Times are seconds of any monotonic clock.
 class DenoiseCadence {
 public:
     static constexpr double min_interval = 1;         // seconds from the start of one run to the start of the next
@@ -30,6 +30,7 @@ public:
     static constexpr double idle_share = 0.25;        // of the image's render time, for all runs with one of the large network
     static constexpr double quick_samples = 2;        // before that many, a frame that takes longer than
     static constexpr double quick_seconds = 0.1;      // is denoised at half size
+    static constexpr double refining_seconds = 0.2;   // for a coarse image that refines the denoised one before
     static constexpr double frame_seconds = 1.0 / 30; // for an image that the window waits for
 
     // The properties of a frame that matter here.
@@ -58,6 +59,8 @@ public:
     Decision next(double now) const;
     // Expected seconds of a run of the small network for a coarse frame, per megapixel; 0 if nothing was denoised yet.
     double coarse_speed() const;
+    // The same for a frame of full size.
+    double speed() const { return seconds_per_megapixel_[size_t(DenoiseQuality::fast)]; }
     // Records that the run requested by next(), of the newest frame at
     // time `begun`, took `seconds` without preparation of the network; `finished`: it produced an image.
     void record(const Source& source, const Decision& run, double begun, double seconds, bool finished);
@@ -65,6 +68,7 @@ public:
 private:
     bool is_done(DenoiseQuality quality) const;
     bool fits_a_frame() const;
+    bool refines() const;
     Decision now_with(DenoiseQuality quality) const;
     // True if the newest frame is denoised at half size, by the small network.
     bool halves(DenoiseQuality quality) const;
@@ -75,7 +79,8 @@ private:
 
     std::optional<Source> newest_;
     std::array<double, 3> seconds_per_megapixel_{}; // of frames at full resolution, by quality; 0: not known
-    double coarse_seconds_per_megapixel_ = 0;       // small network, coarse frames: they use the cores less well
+    double coarse_seconds_per_megapixel_ = 0;       // small network, first coarse frames: they use the cores less well
+    double coarse_megapixels_ = 0;                  // of these
 
     // Of the newest frame's image.
     double image_begun_ = 0;

@@ -237,8 +237,8 @@ void RenderSession::State::begin_image(const RenderSettings& film_settings, cons
     renderer->begin_image(current->base(), film_settings, current->groups);
     if (current->groups) renderer->set_mix(current->mixing);
     const double planes = current->groups ? double(current->groups->groups.size()) : 1; // light groups are denoised separately
-    scheduler.expect_denoising(1e-6 * planes * denoiser->coarse_speed(),
-                               denoiser->finishing_seconds(FirstHitSharing::knows(*renderer), current->look));
+    scheduler.expect_denoising({1e-6 * planes * denoiser->coarse_speed(), 1e-6 * planes * denoiser->speed(),
+                                denoiser->finishing_seconds(FirstHitSharing::knows(*renderer), current->look)});
     if (renderer->begins_with_seeds()) scheduler.expect_seeds();
     has_scene = true;
     restart_reason.clear();

@@ -61,10 +61,10 @@ int Scheduler::first_divider() const {
     const double pixels = double(settings_.width) * double(settings_.height);
     const double measured = first_sample_seconds(), full = measured > 0 ? measured : pixels / 2e6;
     const int raw = divider_within(first_image_seconds, full);
-    if (raw == 1 || denoising_seconds_per_pixel_ == 0) return raw;
+    if (raw == 1 || denoising_.coarse == 0) return raw;
     // At least half of the time is left, so that a slow machine does not get images that are too coarse to be mixed with history.
-    const double left = std::max(first_denoised_seconds - finishing_seconds_, first_denoised_seconds / 2);
-    const int denoised = divider_within(left, full + pixels * denoising_seconds_per_pixel_);
+    const double left = std::max(first_denoised_seconds - denoising_.finishing, first_denoised_seconds / 2);
+    const int denoised = divider_within(left, full + pixels * denoising_.coarse);
     return denoised <= 2 * raw ? std::max(raw, denoised) : raw;
 }
 
@@ -74,6 +74,18 @@ bool Scheduler::coarse_image_is_worth_more() const {
     if (settings_.spp > 0 && settings_.first_sample + 2 * coarse_samples_ > settings_.spp) return false;
     const double more = double(coarse_samples_) * first_sample_seconds() / (double(film_divider_) * double(film_divider_));
     return seconds_ + more <= coarse_share * first_sample_seconds();
+}
+
+// Of the second coarse image; 0: none, as it would be hardly finer than the first.
+int Scheduler::refined_divider() const {
+    if (film_divider_ <= 1 || denoising_.coarse == 0 || denoising_.whole == 0) return 0;
+    if (settings_.spp > 0 && settings_.first_sample + refined_samples > settings_.spp) return 0;
+    const double sample = first_sample_seconds();
+    const double denoising = double(settings_.width) * double(settings_.height) * denoising_.whole;
+    const double seconds = refined_share * (sample + denoising);
+    int divider = 2;
+    while (double(refined_samples) * sample + denoising > seconds * divider * divider) ++divider;
+    return least_refinement * divider <= film_divider_ ? divider : 0;
 }
 
 double Scheduler::publish_interval() const {
@@ -94,6 +106,17 @@ Work Scheduler::next(bool lacks_light_paths) const {
         work.divider = first_divider();
         work.clear = true;
         work.always_finish = true;
+        return work;
+    }
+    if (const int divider = refined_divider()) {
+        work.count = refined_samples;
+        work.divider = divider;
+        work.clear = true;
+        if (coarse_samples_ >= refined_samples) return work;
+        work.first_sample += coarse_samples_;
+        work.count -= coarse_samples_;
+        work.divider = film_divider_;
+        work.clear = false;
         return work;
     }
     if (coarse_image_is_worth_more()) {

@@ -19,8 +19,8 @@ struct Work {
     bool completes = false;     // no sample: more light paths of the first one
 };
 
-// Similar to Cycles: a first image within a display frame, more samples of it while a first sample at full resolution would take much
-// longer, then full resolution, then batches with growing display intervals,
+// Similar to Cycles: a first image within a display frame, more samples of it, or with denoising a finer one, while a first sample at
+// full resolution would take much longer, then full resolution, then batches with growing display intervals,
 // because resolving costs time and later updates are less urgent.
 class Scheduler {
 public:
@@ -42,17 +42,23 @@ public:
     // Coarse images get samples until they took this share of a sample at full resolution: until that is shown, more samples in fewer
     // pixels have the lower error.
     static constexpr double coarse_share = 0.25;
+    // With denoising, a second coarse image of this many samples, after as many of the first, takes at most this share of the time of a
+    // denoised sample at full resolution: the network adds samples, as it were, but no pixels.
+    static constexpr int64_t refined_samples = 4;
+    static constexpr double refined_share = 0.12;
+    static constexpr double least_refinement = 1.6; // of the sides, over the first
     static constexpr int coarsest_divider = 16;
     static constexpr int min_long_side = 96; // pixels of the coarse image, unless the full one is smaller
 
     // Timings survive a restart: the next revision probably costs about the same.
     void restart(const RenderSettings& settings, bool interactive);
-    // After a restart: seconds that denoising would take per film pixel of a coarse image, 0: first images are shown as they are; and that
-    // enlarging the result by first hits, or mixing it with view history, takes.
-    void expect_denoising(double seconds_per_pixel, double finishing_seconds = 0) {
-        denoising_seconds_per_pixel_ = seconds_per_pixel;
-        finishing_seconds_ = finishing_seconds;
-    }
+    struct DenoisingTimes {
+        double coarse = 0;    // seconds per film pixel of a first, coarse image; 0: first images are shown as they are
+        double whole = 0;     // the same of a whole image; 0: unknown
+        double finishing = 0; // seconds that enlarging the result by first hits, or mixing it with view history, takes
+    };
+    // After a restart.
+    void expect_denoising(const DenoisingTimes& times) { denoising_ = times; }
     // After a restart: first samples begin with kept seeds (LearnedSampling::kept_seeds).
     void expect_seeds() { seeded_ = true; }
     // After a restart: continues from so many samples per pixel, rendered in `seconds`.
@@ -83,6 +89,7 @@ private:
     double first_sample_seconds() const;
     int divider_within(double budget, double full_seconds) const;
     bool coarse_image_is_worth_more() const;
+    int refined_divider() const;
     double publish_interval() const;
     bool error_may_be_reached(int64_t samples) const;
 
@@ -93,7 +100,7 @@ private:
     int64_t coarse_samples_ = 0; // of the film, if it is not at full resolution
     int64_t next_sample_ = 0;
     bool interactive_ = true, seeded_ = false;
-    double denoising_seconds_per_pixel_ = 0, finishing_seconds_ = 0;
+    DenoisingTimes denoising_;
     double seconds_ = 0;      // render time of this revision
     double last_publish_ = 0; // seconds_ when last published
     double error_ = -1;       // last estimate, made at

@@ -271,6 +271,39 @@ TEST(DenoiseCadence, CoarseImagesAreDenoisedOnlyIfTheyFitAFrame) {
     }
 }
 
+TEST(DenoiseCadence, ACoarseImageThatIsFinerThanTheOneBeforeMayTakeLonger) {
+    for (const double megapixel_seconds : {0.8, 10.0}) {
+        Bench bench;
+        bench.seconds[0] = megapixel_seconds;
+        bench.warm_up();
+        const Source first{1, 4, 20, false, 1.0 / 400}, finer{1, 4, 4, false, 1.0 / 16};
+        bench.offer(first);
+        bench.denoise_if_due(first);
+        ASSERT_EQ(bench.done.size(), 1u);
+        const double coarse_speed = bench.cadence.coarse_speed();
+        bench.offer(finer);
+        const double expected = megapixel_seconds / 16;
+        ASSERT_GT(expected, DenoiseCadence::frame_seconds);
+        bench.denoise_if_due(finer);
+        EXPECT_EQ(bench.done.size(), expected <= DenoiseCadence::refining_seconds ? 2u : 1u) << megapixel_seconds;
+        EXPECT_EQ(bench.cadence.coarse_speed(), coarse_speed) << "of first images alone";
+    }
+}
+
+// Small images do not keep all cores busy, so a run takes time besides that of its pixels.
+TEST(DenoiseCadence, TheTimeThatSmallImagesTakeBesidesIsNotMultiplied) {
+    DenoiseCadence cadence;
+    const Source full{1, 2, 1, false, 1};
+    cadence.offer(full, 0);
+    cadence.record(full, {fast}, 0, 0.8, true);
+    cadence.offer({2, 4, 20, false, 1.0 / 400}, 1);
+    cadence.record({2, 4, 20, false, 1.0 / 400}, {fast}, 1, 0.020, true); // 0.018 s more than its share of pixels
+    cadence.offer({2, 4, 4, false, 1.0 / 8}, 2);
+    EXPECT_TRUE(cadence.next(2).quality) << "0.1 s and 0.018 s, not 8 s a megapixel";
+    cadence.offer({2, 4, 2, false, 1.0 / 4}, 2);
+    EXPECT_FALSE(cadence.next(2).quality) << "0.2 s and 0.018 s";
+}
+
 TEST(DenoiseCadence, AfterACoarseImageTheFirstFullOneIsDueAtOnce) {
     Bench bench;
     bench.render(1, 3);

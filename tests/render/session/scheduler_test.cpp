@@ -1,5 +1,5 @@
-// The scheduler with simulated timings: no rendering, no clock.
 #include "render/session/scheduler.h"
+#include "tests/render/session/scheduler_machine.h"
 
 #include <gtest/gtest.h>
 
@@ -12,48 +12,9 @@
 namespace blush::TEST_FILE {
 namespace {
 
-// A machine with a constant time per sample, whose error falls as 1 / samples.
-struct Machine {
-    double sample_seconds = 0.01; // every pixel at full resolution
-    double error_of_one_sample = 1;
-
-    double seconds(const Work& work) const { return sample_seconds * double(work.count) / (double(work.divider) * double(work.divider)); }
-
-    void do_work(Scheduler& scheduler, const Work& work) const {
-        scheduler.record_render(work, seconds(work));
-        if (!work.publish && !scheduler.finished()) return;
-        scheduler.record_publish();
-        if (work.divider == 1) scheduler.record_error(error_of_one_sample / double(scheduler.samples()));
-    }
-    // Works until finished, or for that many work items.
-    std::vector<Work> run(Scheduler& scheduler, size_t pieces = 100000) const {
-        std::vector<Work> done;
-        while (!scheduler.finished() && done.size() < pieces) {
-            done.push_back(scheduler.next());
-            do_work(scheduler, done.back());
-        }
-        return done;
-    }
-};
-
-RenderSettings endless(int width = 1280, int height = 720) {
-    RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.spp = 0;
-    return settings;
-}
-
-// A scheduler that knows the sample time, before the first work of a new revision.
-Scheduler trained(const Machine& machine, const RenderSettings& settings) {
-    Scheduler scheduler;
-    RenderSettings long_ago = settings;
-    long_ago.spp = 0;
-    scheduler.restart(long_ago, true);
-    machine.run(scheduler, 50);
-    scheduler.restart(settings, true);
-    return scheduler;
-}
+using test::endless;
+using test::Machine;
+using test::trained;
 
 TEST(Scheduler, FirstImageIsTheFinestThatFits) {
     for (const double sample_seconds : {0.001, 0.02, 0.03, 0.09, 0.3, 0.7}) {
@@ -77,37 +38,6 @@ TEST(Scheduler, FirstImagesKeepTheirSizeWhileTimingsVary) {
     Machine{20 * Scheduler::first_image_seconds}.run(scheduler, 50);
     scheduler.restart(endless(), true);
     EXPECT_EQ(scheduler.next().divider, 5) << "a scene that became slower";
-}
-
-TEST(Scheduler, FirstImageLeavesTimeForDenoising) {
-    const double pixels = 1280 * 720, sample_seconds = 0.2;
-    for (const double denoising : {0.1, 0.2, 0.4, 1.0}) {
-        Scheduler scheduler = trained({sample_seconds}, endless());
-        scheduler.expect_denoising(denoising / pixels);
-        const int d = scheduler.next().divider;
-        EXPECT_LE((sample_seconds + denoising) / (d * d), Scheduler::first_denoised_seconds * Scheduler::timing_tolerance) << denoising;
-        EXPECT_LE(sample_seconds / (d * d), Scheduler::first_image_seconds) << denoising;
-    }
-    Scheduler slow = trained({sample_seconds}, endless());
-    slow.expect_denoising(20 / pixels);
-    EXPECT_EQ(slow.next().divider, trained({sample_seconds}, endless()).next().divider) << "denoising that would not be in time";
-    Scheduler fast = trained({0.001}, endless());
-    fast.expect_denoising(0.1 / pixels);
-    EXPECT_EQ(fast.next().divider, 1) << "full resolution needs no coarse image";
-}
-
-TEST(Scheduler, FirstImageLeavesTimeForHistory) {
-    const double pixels = 1280 * 720, sample_seconds = 0.2, denoising = 2e-7;
-    int last = 0;
-    for (const double history : {0.0, 0.006, 0.01, 1.0}) {
-        Scheduler scheduler = trained({sample_seconds}, endless());
-        scheduler.expect_denoising(denoising, history);
-        const int d = scheduler.next().divider;
-        const double left = std::max(Scheduler::first_denoised_seconds - history, Scheduler::first_denoised_seconds / 2);
-        EXPECT_LE((sample_seconds + pixels * denoising) / (d * d), left * Scheduler::timing_tolerance) << history;
-        EXPECT_GE(d, last);
-        last = d;
-    }
 }
 
 // Walks from kept seeds make first samples slower, and the pilots discard them.
