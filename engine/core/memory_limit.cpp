@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view address_space = "by ulimit -v";
+
 std::optional<uint64_t> number_in(const fs::path& file) {
     std::ifstream in(file);
     std::string text;
@@ -78,6 +80,8 @@ void tighten_by_groups(MemoryLimit& room, const fs::path& root) {
 
 } // namespace
 
+bool MemoryLimit::is_of_address_space() const { return limit_of == address_space; }
+
 std::string MemoryLimit::text() const {
     return fmt::format("{:.2g} GB are left, the limit is {:.2g} GB {}", double(left) / 1e9, double(limit) / 1e9, limit_of);
 }
@@ -91,7 +95,7 @@ MemoryLimit memory_limit(const fs::path& root) {
                 "of this machine");
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        tighten(room, limit.rlim_cur, number_in(root / "proc/self/statm").value_or(0) * uint64_t(sysconf(_SC_PAGE_SIZE)), "by ulimit -v");
+        tighten(room, limit.rlim_cur, number_in(root / "proc/self/statm").value_or(0) * uint64_t(sysconf(_SC_PAGE_SIZE)), address_space);
     tighten_by_groups(room, root);
     return room;
 }

@@ -12,6 +12,9 @@ struct MemoryLimit {
     uint64_t limit = 0;        // bytes: the smallest limit
     std::string_view limit_of; // its source: "of this machine", "by ulimit -v", "of its control group"
     uint64_t left = 0;         // bytes available within all limits
+
+    // True if the smallest limit is that of address space, which libraries and threads take more of than of memory.
+    bool is_of_address_space() const;
     // "3.2 GB are left, the limit is 4.0 GB of its control group"
     std::string text() const;
 };

@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -357,9 +356,9 @@ int run_render(RenderCommand c) {
         if (const Result<void> begun = resume_from(c.begun, *plan); !begun) return failed(begun.error());
     if (!plan->pixel)
         if (const Result<void> folder = expect_folder(c.output); !folder) return failed(folder.error());
-    // Beside the scene.
-    std::future<Result<void>> encoder;
-    if (!plan->pixel) encoder = std::async(std::launch::async, load_encoder, std::filesystem::path(c.output));
+    // Before other threads allocate memory, which the libraries may then lack.
+    if (!plan->pixel)
+        if (const Result<void> encoder = load_encoder(c.output); !encoder) return failed(encoder.error());
     const Result<std::optional<ColorManagement>> color = color_for(plan->pixel ? ImageFormat::exr : plan->format, c.options.view);
     if (!color) return failed(color.error());
     Denoiser denoiser(weights_dir(), c.common.threads);
@@ -384,7 +383,6 @@ int run_render(RenderCommand c) {
         fmt::print("{}", trace_sample(loaded->scene, plan->settings, plan->pixel->x, plan->pixel->y, plan->pixel->sample));
         return exit_done;
     }
-    if (const Result<void> encoder_loaded = encoder.get(); !encoder_loaded) return failed(encoder_loaded.error());
     const Result<Rendered> rendered = render_image(c, *plan, *loaded, *color ? &**color : nullptr, denoiser, guard.interrupted());
     if (!rendered) return failed(rendered.error());
     if (const Result<void> written = write_json(c.common.json, result_json(c, plan->settings, *rendered)); !written)

@@ -69,8 +69,8 @@ protected:
     ~ImageCodec() = default;
 };
 
-// Loads the module at the first call and keeps it until the process ends. Error, of file `name`: the module, or a library that it
-// needs, is missing, or the module is of another version of Blush. Thread-safe.
+// Loads the module, unless a call before did, and keeps it until the process ends. Error, of file `name`: the module, or a library that
+// it needs, is missing; memory is short; the module is of another version of Blush. Thread-safe.
 Result<const ImageCodec*> image_codec(const std::string& name);
 // Seconds that loading took; empty before it.
 std::optional<double> image_codec_load_seconds();

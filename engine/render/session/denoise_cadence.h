@@ -11,7 +11,7 @@
 namespace blush {
 
 // An image's first full-resolution frame is denoised at once: at half size if the full one would take long, since a frame of one sample
-// gains nothing from it; then at full size as soon as there are two samples. It is denoised again when its samples have doubled, for at
+// gains little from it; then at full size as soon as there are two samples. It is denoised again when its samples have doubled, for at
 // most half of the image's render time: the second sample shows the bias of the network (bias_correction.h), and soon raw frames would be
 // better than the last denoised one. Other frames are denoised at most once per second, all together for at most a tenth of the render
 // time. After a while without edits the large network is used, once a quarter of the render time suffices for it: twice the samples are
