@@ -13,6 +13,11 @@ constexpr double max_seconds_of_first_image = Scheduler::first_image_seconds / 2
 
 } // namespace
 
+FirstHitPlanesPtr first_hits_of(const FramePtr& frame, const WorldCamera& camera) {
+    return std::make_shared<const FirstHitPlanes>(
+        FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth, frame, camera});
+}
+
 FirstHitPlanesPtr FirstHitSharing::first_hits_for(const Frame& frame, Renderer& renderer, bool has_first_image) {
     if (!frame.whole || !renderer.has_sharp_first_hits()) return nullptr;
     if (FirstHitPlanesPtr known = renderer.first_hits()) return known;
@@ -28,8 +33,7 @@ void FirstHitSharing::share(Renderer& renderer, const std::shared_ptr<Frame>& fr
     if (frame->divider > 1)
         frame->first_hits = first_hits_for(*frame, renderer, has_first_image);
     else if (frame->whole)
-        renderer.keep_first_hits(std::make_shared<const FirstHitPlanes>(
-            FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth, frame, renderer.world_camera()}));
+        renderer.keep_first_hits(first_hits_of(frame, renderer.world_camera()));
 }
 
 } // namespace blush

@@ -8,6 +8,9 @@
 
 namespace blush {
 
+// The frame's planes of albedo, normal and depth as first hits, which keep it in memory.
+FirstHitPlanesPtr first_hits_of(const FramePtr& frame, const WorldCamera& camera);
+
 class FirstHitSharing {
 public:
     // True if coarse frames of the renderer's scene get known first hits, unless they show a region.

@@ -1,6 +1,7 @@
 #include "render/session/halved_frame.h"
 
 #include "core/parallel.h"
+#include "render/session/first_hit_sharing.h"
 
 #include <algorithm>
 
@@ -69,13 +70,6 @@ private:
     const Workers* workers_;
 };
 
-// Views of the frame's planes; null if it lacks one.
-FirstHitPlanesPtr planes_of_first_hits(const FramePtr& frame) {
-    if (!frame->whole || frame->albedo.empty() || frame->normal.empty() || frame->depth.empty()) return nullptr;
-    return std::make_shared<const FirstHitPlanes>(FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth,
-                                                                 frame, frame->camera.value_or(WorldCamera{})});
-}
-
 } // namespace
 
 std::shared_ptr<const Frame> halved(const FramePtr& frame, const Workers* workers) {
@@ -92,7 +86,8 @@ std::shared_ptr<const Frame> halved(const FramePtr& frame, const Workers* worker
     half->transparent = frame->transparent;
     half->seconds = frame->seconds;
     half->camera = frame->camera;
-    half->first_hits = planes_of_first_hits(frame);
+    if (frame->whole && !frame->albedo.empty() && !frame->normal.empty() && !frame->depth.empty())
+        half->first_hits = first_hits_of(frame, frame->camera.value_or(WorldCamera{}));
     half->rgba = halving.mean(frame->rgba, 4);
     half->albedo = halving.mean(frame->albedo);
     half->normal = halving.mean(frame->normal);

@@ -43,7 +43,7 @@ public:
     // pixels have the lower error.
     static constexpr double coarse_share = 0.25;
     // With denoising, a second coarse image of this many samples, after as many of the first, takes at most this share of the time of a
-    // denoised sample at full resolution: the network adds samples, as it were, but no pixels.
+    // denoised sample at full resolution: the network removes noise, but adds no pixels.
     static constexpr int64_t refined_samples = 4;
     static constexpr double refined_share = 0.12;
     static constexpr double least_refinement = 1.6; // of the sides, over the first

@@ -1,16 +1,12 @@
 #include "render/session/view_history_keeper.h"
 
-#include "render/session/denoise_cadence.h"
+#include "render/session/first_hit_sharing.h"
 
 namespace blush {
 namespace {
 
 // What the denoised image shows, at its size.
-FirstHitPlanesPtr seen_by(const FramePtr& frame) {
-    if (frame->first_hits) return frame->first_hits;
-    return std::make_shared<const FirstHitPlanes>(
-        FirstHitPlanes{frame->width, frame->height, frame->albedo, frame->normal, frame->depth, frame, *frame->camera});
-}
+FirstHitPlanesPtr seen_by(const FramePtr& frame) { return frame->first_hits ? frame->first_hits : first_hits_of(frame, *frame->camera); }
 
 } // namespace
 

@@ -43,6 +43,16 @@ struct Bench {
         done.clear();
         now = 1000;
     }
+    // No further frame comes.
+    void idle(const Source& source) {
+        for (int i = 0; i < 100; ++i) {
+            const double wait = cadence.next(now).wait;
+            if (std::isinf(wait)) return;
+            ASSERT_GT(wait, 0);
+            now += wait + 1e-6;
+            denoise_if_due(source);
+        }
+    }
     // Full-resolution frames, one every tenth of a second; the last one completes the image.
     void render(uint64_t image, int frames) {
         for (int i = 1; i <= frames; ++i) {
@@ -164,13 +174,7 @@ TEST(DenoiseCadence, APausedFirstSampleIsDenoisedAtFullSizeWhenIdle) {
     bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 1u);
     EXPECT_TRUE(bench.done[0].halved);
-    for (int i = 0; i < 100; ++i) {
-        const double wait = bench.cadence.next(bench.now).wait;
-        if (std::isinf(wait)) break;
-        ASSERT_GT(wait, 0);
-        bench.now += wait + 1e-6;
-        bench.denoise_if_due(source);
-    }
+    bench.idle(source);
     ASSERT_EQ(bench.done.size(), 2u);
     EXPECT_EQ(bench.done[1].quality, base);
     EXPECT_FALSE(bench.done[1].halved);
@@ -242,13 +246,7 @@ TEST(DenoiseCadence, APausedImageIsDenoisedWellWhenIdle) {
     bench.offer(source);
     bench.denoise_if_due(source);
     ASSERT_EQ(bench.done.size(), 1u);
-    for (int i = 0; i < 100; ++i) {
-        const double wait = bench.cadence.next(bench.now).wait;
-        if (std::isinf(wait)) break;
-        ASSERT_GT(wait, 0);
-        bench.now += wait + 1e-6;
-        bench.denoise_if_due(source);
-    }
+    bench.idle(source);
     ASSERT_EQ(bench.done.size(), 2u) << "no further runs while paused";
     EXPECT_EQ(bench.done[1].quality, base);
 }
