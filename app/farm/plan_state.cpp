@@ -10,10 +10,8 @@
 namespace blush {
 namespace {
 
-// By Stop, while it rendered or before: no failure.
-bool was_stopped(const FailedTask& task) {
-    return task.last_line.find(stopped_by_signal) != std::string::npos || task.last_line.ends_with("interrupted");
-}
+// The line of a task that Stop ended, while it rendered or before: no failure.
+bool was_stopped(const std::string& line) { return line.find(stopped_by_signal) != std::string::npos || line.ends_with("interrupted"); }
 
 void add_costs(const RenderPlan& plan, FarmPlan& state) {
     const Workload work{int64_t(plan.looks.size()), plan.spp, plan.chunk};
@@ -49,13 +47,18 @@ FarmPlan read_farm_plan(const std::filesystem::path& folder) {
         state.looks.push_back({plan->looks[i].name, look.last, planned, look.merged_samples, look.error});
     }
     for (const FailedTask& task : status.failed)
-        if (!was_stopped(task)) state.failures.push_back(fmt::format("Task {} of {} failed: {}", task.number, task.look, task.last_line));
+        if (!was_stopped(task.last_line))
+            state.failures.push_back(fmt::format("Task {} of {} failed: {}", task.number, task.look, task.last_line));
     add_costs(*plan, state);
     const bool merged = std::ranges::all_of(status.looks, [](const LookProgress& look) { return look.merged; });
     state.state = runs_here(folder) || runs_in_slurm(folder) ? FarmPlan::State::running
                   : status.complete() && merged              ? FarmPlan::State::finished
                                                              : FarmPlan::State::stopped;
-    if (state.state == FarmPlan::State::stopped) state.problem = last_words(folder / local_log);
+    if (state.state == FarmPlan::State::stopped) {
+        // A stopped task and the shell that reports its end write to one log, in any order.
+        const std::string words = last_words(folder / local_log);
+        if (!was_stopped(words)) state.problem = words;
+    }
     return state;
 }
 

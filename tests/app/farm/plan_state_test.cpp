@@ -71,6 +71,18 @@ TEST_F(PlanState, StoppingIsNoFailure) {
     EXPECT_TRUE(eventually([&] { return read().fraction > stopped.fraction; })) << "it does not go on";
 }
 
+// Whichever of the task and the script writes last.
+TEST_F(PlanState, StoppedTasksAreNoProblemInTheLog) {
+    plan.make();
+    const auto problem_after = [&](const std::string& line) {
+        write_text(plan.folder + "/local.out", "Terminated\n" + line + "\n");
+        return read().problem;
+    };
+    EXPECT_EQ(problem_after("blush: error: parts/cornell/0-511.exr: stopped by a signal with the samples 0:64 of 0:512"), "");
+    EXPECT_EQ(problem_after("blush: error: cornell.gltf: interrupted"), "");
+    EXPECT_EQ(problem_after("blush: error: cornell.gltf: cannot be read"), "cornell.gltf: cannot be read");
+}
+
 TEST_F(PlanState, SaysWhyAPlanHasStopped) {
     const std::string copy = scene_copy(folder, "cornell");
     plan.scene = copy;
