@@ -321,6 +321,12 @@ void GuidingField::forget(const Vec3& low, const Vec3& high) {
             }
 }
 
+void GuidingField::release() {
+    GuidingField empty;
+    empty.figures_ = figures_;
+    *this = std::move(empty);
+}
+
 GuidingTables GuidingField::tables() const {
     if (roots_.empty()) return {};
     return {roots_.data(), guided_.data(), shares_.data(), nodes_.data(), grid_};

@@ -45,6 +45,8 @@ public:
     void weaken(double factor);
     // Forgets what the regions have learned in cells that this box meets; coordinates as those of the photons.
     void forget(const Vec3& low, const Vec3& high);
+    // Forgets all of it, but for its figures, and frees the memory.
+    void release();
     int64_t memory_bytes() const {
         return int64_t((roots_.capacity() + nodes_.capacity()) * sizeof(int32_t) +
                        (shares_.capacity() + guided_.capacity()) * sizeof(float));

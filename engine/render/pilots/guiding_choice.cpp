@@ -31,8 +31,14 @@ SceneTables GuidingChoice::tables(SceneTables scene, int64_t sample) const {
     return scene;
 }
 
+void GuidingChoice::leave_to_manifolds() {
+    if (!pays() || released_) return;
+    released_ = field_->memory_bytes();
+    field_->release();
+}
+
 FeatureUse GuidingChoice::report(const KeptField* kept) const {
-    FeatureUse use{.part = "kernel", .name = "path guiding", .used = pays(), .why = {}};
+    FeatureUse use{.part = "kernel", .name = "path guiding", .used = pays() && !released_, .why = {}};
     if (useless_)
         use.why = useless_;
     else if (!field_ && kept) {
@@ -44,9 +50,12 @@ FeatureUse GuidingChoice::report(const KeptField* kept) const {
         use.why = "a pilot decides after the first sample";
     else if (!field_->figures())
         use.why = "pilot: no photon arrives on a surface that is seen";
+    else if (released_)
+        use.why = fmt::format("manifold sampling finds this light; pilot: expected variance would be {:.2f} of that without either",
+                              field_->figures()->cost());
     else
         use.why = fmt::format("pilot: expected variance is {:.2f} of that without", field_->figures()->cost());
-    if (pays()) use.bytes = field_->memory_bytes();
+    if (pays()) use.bytes = released_.value_or(field_->memory_bytes());
     if (field_) use.pilot = field_->figures();
     return use;
 }

@@ -35,6 +35,9 @@ public:
     // The field, if it pays; requires that nothing is rendered with this any more.
     std::optional<GuidingField> take_field() { return pays() ? std::exchange(field_, std::nullopt) : std::nullopt; }
 
+    // For images in which manifold sampling finds the light that this would: releases what the pilot has learned, but not its figures.
+    void leave_to_manifolds();
+
     // `kept`: the field that is used until the pilot has run; null: none.
     FeatureUse report(const KeptField* kept = nullptr) const;
 
@@ -43,6 +46,7 @@ private:
 
     const char* useless_ = "nothing is rendered"; // null: a pilot decides
     std::optional<GuidingField> field_;
+    std::optional<int64_t> released_; // bytes, by leave_to_manifolds()
 };
 
 } // namespace blush

@@ -97,6 +97,7 @@ bool LearnedSampling::decide(int64_t samples, KernelContext context, const Kerne
         light_paths_.combine_with_manifolds(true);
         if (!run(manifolds_, measure_chains)) return false;
         light_paths_.combine_with_manifolds(manifolds_.pays());
+        if (manifolds_.pays()) guiding_.leave_to_manifolds();
         return true;
     };
     return run(visibility_, learn_light_visibility) && run(portals_, learn_portals) && run(guiding_, learn_guiding) &&

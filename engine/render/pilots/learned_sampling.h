@@ -106,7 +106,7 @@ public:
                 manifolds_.report(kept ? kept_seeds() : nullptr),
                 manifolds_.vertex_report(),
                 manifolds_.sharing_report(),
-                reuse_.report(),
+                reuse_.report(excludes_reuse()),
                 adjoint_.report()};
     }
 

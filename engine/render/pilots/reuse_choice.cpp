@@ -38,9 +38,11 @@ int ReuseChoice::group_size(int64_t sample) const {
     return pays() ? pilot_->group_size : 1;
 }
 
-FeatureUse ReuseChoice::report() const {
-    FeatureUse use{.part = "kernel", .name = "path reuse", .used = first_ > 1 && pays(), .why = {}};
-    if (pilot_)
+FeatureUse ReuseChoice::report(bool excluded) const {
+    FeatureUse use{.part = "kernel", .name = "path reuse", .used = first_ > 1 && pays() && !excluded, .why = {}};
+    if (excluded && first_ > 1)
+        use.why = "it does not know the densities of light paths and manifold sampling";
+    else if (pilot_)
         use.why =
             fmt::format("pilot: variance x work of groups of {} pixels is {:.2f} of that without", pilot_->group_size, pilot_->cost());
     else if (useless_)

@@ -40,7 +40,8 @@ public:
     // The same for the first sample; without path reuse there, no other sample has any.
     int first_group_size() const { return first_; }
 
-    FeatureUse report() const;
+    // `excluded`: samples behind the first have none, as other strategies know densities that it does not.
+    FeatureUse report(bool excluded = false) const;
 
 private:
     bool pays() const { return !pilot_ || pilot_->cost() < 1; }

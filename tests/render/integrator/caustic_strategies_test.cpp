@@ -1,4 +1,5 @@
 // The strategies for caustics on the demo scenes: alone, all together and without they agree in the mean.
+#include "scene/reuse_setting.h"
 #include "tests/render/integrator/caustic_images.h"
 
 #include <gtest/gtest.h>
@@ -49,15 +50,31 @@ TEST(CausticStrategies, AreChosenByPilotsWithinTheSetting) {
             features += uses(scene, settings, feature) ? '1' : '0';
         return features;
     };
+    EXPECT_EQ(used("pool", CausticStrategy::automatic)[0], '0') << "manifold sampling finds the light of path guiding";
     EXPECT_EQ(used("pool", CausticStrategy::automatic)[2], '1');
     EXPECT_EQ(used("pool", CausticStrategy::manifold), "001");
     EXPECT_EQ(used("metal-ring", CausticStrategy::automatic)[1], '1');
     EXPECT_EQ(used("metal-ring", CausticStrategy::light_paths), "010");
-    EXPECT_EQ(used("prism", CausticStrategy::automatic).substr(1), "11") << "both carry a wavelength";
+    EXPECT_EQ(used("prism", CausticStrategy::automatic), "011") << "both carry a wavelength";
     EXPECT_EQ(used("prism", CausticStrategy::manifold), "001");
     EXPECT_EQ(used("pool", CausticStrategy::guiding), "100");
     EXPECT_EQ(used("pool", CausticStrategy::off), "000");
     EXPECT_EQ(used("cornell", CausticStrategy::automatic), "000");
+}
+
+// Whatever is asked for: path reuse does not know the densities of light paths and manifold sampling.
+TEST(CausticStrategies, ThatExcludePathReuseAreReported) {
+    for (const int reuse : {reuse_auto, 8}) {
+        RenderSettings settings = settings_for(160, 90, 2);
+        settings.reuse = reuse;
+        EXPECT_FALSE(uses(shipped_scene("pool"), settings, "path reuse"));
+        EXPECT_FALSE(uses(shipped_scene("metal-ring"), settings, "path reuse"));
+        EXPECT_TRUE(uses(shipped_scene("cornell"), settings, "path reuse"));
+    }
+    RenderSettings without = settings_for(160, 90, 2);
+    without.reuse = 8;
+    without.caustics = CausticStrategy::off;
+    EXPECT_TRUE(uses(shipped_scene("pool"), without, "path reuse"));
 }
 
 } // namespace

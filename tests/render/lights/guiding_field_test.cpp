@@ -120,6 +120,17 @@ TEST(GuidingField, TakesAtMost32MiB) {
     EXPECT_LT(field.memory_bytes(), int64_t(32) << 20);
 }
 
+TEST(GuidingField, ReleasedFieldsKeepTheirFiguresAlone) {
+    GuidingField field = learned(trials());
+    const auto figures = field.figures();
+    ASSERT_TRUE(figures);
+    field.release();
+    EXPECT_EQ(field.memory_bytes(), 0);
+    EXPECT_TRUE(field.empty());
+    EXPECT_FALSE(field.tables().roots);
+    EXPECT_EQ(field.figures(), figures);
+}
+
 TEST(GuidingField, ProbabilitiesFollowTheFlux) {
     RandomNumbers random(8);
     Trials all;
