@@ -220,6 +220,26 @@ TEST(KeptField, ImagesAfterTheFirstSampleAreThoseOfAFreshStart) {
     }
 }
 
+// The edit leaves so little of the sun that only the lamp, which has no size, has a caustic: light paths alone find it, also in the first
+// sample, which is rendered again without the field.
+TEST(KeptField, LeavesTheCausticsOfZeroSizeLights) {
+    Stage stage;
+    stage.scene = stage.with_light(stage.lamp, [](Light& l) { l.radius = 0; });
+    const Scene after = stage.with_light(stage.sun, [](Light& l) { l.intensity *= 1e-4f; });
+    RenderSettings settings = settings_for(80, 48, 4);
+    settings.caustics = CausticStrategy::automatic;
+    const RendererOptions options{.threads = 2, .planes = {}, .caustics = {.manifold_sampling = false}, .begins_trained = true};
+    Renderer fresh(options), renderer(options);
+    fresh.update(after, settings);
+    ASSERT_TRUE(fresh.render(0, 4));
+    ASSERT_NE(feature_line(fresh, "light paths").why.find("they alone find caustics of lights of zero size"), std::string::npos);
+    edit(renderer, stage.scene, after, settings);
+    ASSERT_TRUE(renderer.render(0, 1));
+    ASSERT_TRUE(feature_line(renderer, feature).used) << "the first sample has nothing of the field";
+    ASSERT_TRUE(renderer.render(1, 3));
+    EXPECT_TRUE(same_pixels(renderer.resolve(), fresh.resolve()));
+}
+
 // Without the option nothing depends on earlier edits.
 TEST(KeptField, IsNotUsedUnlessAskedFor) {
     const Stage stage;
