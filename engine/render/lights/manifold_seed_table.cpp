@@ -1,6 +1,5 @@
 #include "render/lights/manifold_seed_table.h"
 
-#include "render/lights/receiver_grid.h"
 #include "shading/path_guiding.h"
 
 #include <algorithm>
@@ -56,16 +55,37 @@ bool ends_chains(const SceneTables& scene, const LightRecord& light) {
     }
 }
 
+// By block and side: the photons in it or near to it. Nothing if `wanted` returned false.
+std::optional<ByKey<const ChainPhoton*>> by_block(const CellBlocks& blocks, std::span<const ChainPhoton* const> photons,
+                                                  const std::function<bool()>& wanted) {
+    std::vector<std::pair<int32_t, const ChainPhoton*>> near;
+    const float reach = margin * float(blocks.side) / blocks.grid.cells_per_metre;
+    for (size_t i = 0; i < photons.size(); ++i) {
+        if (i % photons_per_question == 0 && wanted && !wanted()) return std::nullopt;
+        const ChainPhoton& p = *photons[i];
+        const Vec3 corner{reach, reach, reach};
+        const int32_t low = guiding_cell<float>(blocks.grid, p.position - corner, p.normal), face = low % guiding_sides;
+        const int32_t high = guiding_cell<float>(blocks.grid, p.position + corner, p.normal);
+        const auto from = blocks.place(blocks.of(low / guiding_sides)), to = blocks.place(blocks.of(high / guiding_sides));
+        // No step is more than one block.
+        for (int32_t z = from[2]; z <= to[2]; ++z)
+            for (int32_t y = from[1]; y <= to[1]; ++y)
+                for (int32_t x = from[0]; x <= to[0]; ++x) near.emplace_back(blocks.at(x, y, z) * guiding_sides + face, &p);
+    }
+    return ByKey<const ChainPhoton*>(std::move(near));
+}
+
 } // namespace
 
 std::optional<ManifoldSeedTable> ManifoldSeedTable::make(std::span<const ChainPhoton> photons, const SceneTables& scene,
-                                                         const std::function<bool()>& wanted) {
+                                                         const Workers& workers, const std::function<bool()>& wanted) {
     ManifoldSeedTable table;
-    if (!table.build(photons, scene, wanted)) return std::nullopt;
+    if (!table.build(photons, scene, workers, wanted)) return std::nullopt;
     return table;
 }
 
-bool ManifoldSeedTable::build(std::span<const ChainPhoton> photons, const SceneTables& scene, const std::function<bool()>& wanted) {
+bool ManifoldSeedTable::build(std::span<const ChainPhoton> photons, const SceneTables& scene, const Workers& workers,
+                              const std::function<bool()>& wanted) {
     const LightTables& lights = scene.lights;
     // Groups, of lights that some photon comes from.
     group_of_light_.assign(size_t(lights.count), -1);
@@ -110,43 +130,33 @@ bool ManifoldSeedTable::build(std::span<const ChainPhoton> photons, const SceneT
     std::erase_if(usable, [&](const ChainPhoton* p) { return group_of_light_[size_t(p->light)] < 0; });
     if (grid_.cells_per_metre == 0) return true;
 
-    for (size_t size = block_sides.size(); size-- > 0;)
-        if (!add_regions(block_sides[size], usable, wanted)) return false;
+    // Sorting the photons takes most of the time.
+    std::array<std::optional<ByKey<const ChainPhoton*>>, block_sides.size()> sorted;
+    if (!workers.for_each(int64_t(block_sides.size()), wanted, [&](int64_t size, unsigned) {
+            sorted[size_t(size)] = by_block({grid_, block_sides[size_t(size)]}, usable, wanted);
+        }))
+        return false;
+    for (size_t size = block_sides.size(); size-- > 0;) {
+        if (!sorted[size]) return false;
+        add_regions({grid_, block_sides[size]}, *sorted[size]);
+    }
     return true;
 }
 
-// Of the cubes of side^3 cells that have enough photons. False if `wanted` returned false.
-bool ManifoldSeedTable::add_regions(int32_t side, std::span<const ChainPhoton* const> photons, const std::function<bool()>& wanted) {
-    const CellBlocks blocks{grid_, side};
-    std::vector<std::pair<int32_t, const ChainPhoton*>> near; // by block and side
-    const float reach = margin * float(side) / grid_.cells_per_metre;
-    for (size_t i = 0; i < photons.size(); ++i) {
-        if (i % photons_per_question == 0 && wanted && !wanted()) return false;
-        const ChainPhoton& p = *photons[i];
-        std::array<int32_t, 8> blocks_near;
-        for (size_t k = 0; k < 8; ++k) {
-            const Vec3 corner{k & 1 ? reach : -reach, k & 2 ? reach : -reach, k & 4 ? reach : -reach};
-            const int32_t cell = guiding_cell<float>(grid_, p.position + corner, p.normal);
-            blocks_near[k] = blocks.of(cell / guiding_sides) * guiding_sides + cell % guiding_sides;
-        }
-        std::ranges::sort(blocks_near);
-        const auto end = std::unique(blocks_near.begin(), blocks_near.end());
-        for (auto b = blocks_near.begin(); b != end; ++b) near.emplace_back(*b, &p);
-    }
-    const ByKey<const ChainPhoton*> of_block(std::move(near));
-    for (size_t b = 0; b < of_block.keys().size(); ++b) {
-        const std::span<const ChainPhoton* const> some = of_block.values_at(b);
+// Of the cubes of blocks.side^3 cells that have enough photons.
+void ManifoldSeedTable::add_regions(const CellBlocks& blocks, const ByKey<const ChainPhoton*>& photons) {
+    for (size_t b = 0; b < photons.keys().size(); ++b) {
+        const std::span<const ChainPhoton* const> some = photons.values_at(b);
         if (some.size() < photons_of_region) continue;
-        const int32_t block = of_block.keys()[b] / guiding_sides, face = of_block.keys()[b] % guiding_sides;
+        const int32_t block = photons.keys()[b] / guiding_sides, face = photons.keys()[b] % guiding_sides;
         blocks.for_each_cell(block,
                              [&](int32_t cell) { regions_of_cell_[size_t(cell * guiding_sides + face)] = int32_t(regions_.size()); });
-        add_region({some.begin(), some.end()}, seeds_of_region);
+        add_region(some, seeds_of_region);
     }
-    return true;
 }
 
 // `photons`: sorted by group. So many of them become seeds, each in proportion to its flux (systematic resampling).
-void ManifoldSeedTable::add_region(std::vector<const ChainPhoton*> photons, size_t seeds) {
+void ManifoldSeedTable::add_region(std::span<const ChainPhoton* const> photons, size_t seeds) {
     double flux = 0;
     for (const ChainPhoton* p : photons) flux += double(p->flux);
     const size_t count = std::min(seeds, photons.size());

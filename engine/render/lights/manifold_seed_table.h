@@ -1,8 +1,10 @@
 // Builds the seeds of manifold sampling from photons (shading/manifold_seeds.h).
 #pragma once
 
+#include "core/parallel.h"
 #include "render/compile/scene_tables.h"
 #include "render/lights/guiding_trial.h"
+#include "render/lights/receiver_grid.h"
 #include "shading/manifold_seeds.h"
 
 #include <cstddef>
@@ -20,7 +22,7 @@ public:
     ManifoldSeedTable() = default;
     // Reads the lights, parts and materials of the scene. Empty if no photon has arrived by specular surfaces alone. Nothing if `wanted`
     // returned false meanwhile; an empty `wanted` never does.
-    static std::optional<ManifoldSeedTable> make(std::span<const ChainPhoton> photons, const SceneTables& scene,
+    static std::optional<ManifoldSeedTable> make(std::span<const ChainPhoton> photons, const SceneTables& scene, const Workers& workers,
                                                  const std::function<bool()>& wanted);
 
     bool empty() const { return seeds_.empty(); }
@@ -33,9 +35,9 @@ public:
 
 private:
     // False if `wanted` returned false.
-    bool build(std::span<const ChainPhoton> photons, const SceneTables& scene, const std::function<bool()>& wanted);
-    bool add_regions(int32_t side, std::span<const ChainPhoton* const> photons, const std::function<bool()>& wanted);
-    void add_region(std::vector<const ChainPhoton*> photons, size_t seeds);
+    bool build(std::span<const ChainPhoton> photons, const SceneTables& scene, const Workers& workers, const std::function<bool()>& wanted);
+    void add_regions(const CellBlocks& blocks, const ByKey<const ChainPhoton*>& photons);
+    void add_region(std::span<const ChainPhoton* const> photons, size_t seeds);
 
     ReceiverGrid grid_;
     std::vector<int32_t> regions_of_cell_, group_of_light_;

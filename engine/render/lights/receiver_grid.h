@@ -4,7 +4,9 @@
 #include "shading/receiver_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,10 +28,16 @@ struct CellBlocks {
     int32_t count() const { return along(0) * along(1) * along(2); }
     int32_t of(int32_t cell) const {
         const int32_t x = cell % grid.cells[0], y = cell / grid.cells[0] % grid.cells[1], z = cell / (grid.cells[0] * grid.cells[1]);
-        return (z / side * along(1) + y / side) * along(0) + x / side;
+        return at(x / side, y / side, z / side);
+    }
+    int32_t at(int32_t x, int32_t y, int32_t z) const { return (z * along(1) + y) * along(0) + x; }
+    // The inverse.
+    std::array<int32_t, 3> place(int32_t block) const {
+        return {block % along(0), block / along(0) % along(1), block / (along(0) * along(1))};
     }
     template <class Visit> void for_each_cell(int32_t block, const Visit& visit) const {
-        const int32_t x0 = block % along(0) * side, y0 = block / along(0) % along(1) * side, z0 = block / (along(0) * along(1)) * side;
+        const std::array<int32_t, 3> at = place(block);
+        const int32_t x0 = at[0] * side, y0 = at[1] * side, z0 = at[2] * side;
         for (int32_t z = z0; z < std::min(z0 + side, grid.cells[2]); ++z)
             for (int32_t y = y0; y < std::min(y0 + side, grid.cells[1]); ++y)
                 for (int32_t x = x0; x < std::min(x0 + side, grid.cells[0]); ++x) visit((z * grid.cells[1] + y) * grid.cells[0] + x);
@@ -41,13 +49,9 @@ template <class T> class ByKey {
 public:
     // The values of a key keep their order. Keys are not negative.
     explicit ByKey(std::vector<std::pair<int32_t, T>> entries) {
-        std::vector<uint64_t> order; // keys and indices: faster to sort than values
-        order.reserve(entries.size());
-        for (size_t i = 0; i < entries.size(); ++i) order.push_back(uint64_t(uint32_t(entries[i].first)) << 32 | i);
-        std::ranges::sort(order);
         values_.reserve(entries.size());
-        for (const uint64_t o : order) {
-            auto& [key, value] = entries[size_t(uint32_t(o))];
+        for (const uint32_t i : order_of(entries)) {
+            auto& [key, value] = entries[i];
             if (keys_.empty() || keys_.back() != key) {
                 keys_.push_back(key);
                 begins_.push_back(values_.size());
@@ -67,6 +71,24 @@ public:
     }
 
 private:
+    // Indices of the entries, by key. Counting sort, unless the keys are so far apart that their counters would take the time.
+    static std::vector<uint32_t> order_of(const std::vector<std::pair<int32_t, T>>& entries) {
+        constexpr size_t counters_per_entry = 16;
+        int32_t last = 0;
+        for (const auto& [key, value] : entries) last = std::max(last, key);
+        std::vector<uint32_t> order(entries.size());
+        if (size_t(last) / counters_per_entry > entries.size()) {
+            std::iota(order.begin(), order.end(), 0u);
+            std::ranges::stable_sort(order, {}, [&](uint32_t i) { return entries[i].first; });
+            return order;
+        }
+        std::vector<uint32_t> place(size_t(last) + 2);
+        for (const auto& [key, value] : entries) ++place[size_t(key) + 1];
+        std::partial_sum(place.begin(), place.end(), place.begin());
+        for (size_t i = 0; i < entries.size(); ++i) order[place[size_t(entries[i].first)]++] = uint32_t(i);
+        return order;
+    }
+
     std::vector<int32_t> keys_;
     std::vector<size_t> begins_;
     std::vector<T> values_;

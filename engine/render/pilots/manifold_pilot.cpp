@@ -125,7 +125,7 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
                                                const CausticCasterTables& casters, std::optional<bool> shares, bool disperses,
                                                const Kernel& kernel, const Kernel& without, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
-    auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, wanted);
+    auto seeds = ManifoldSeedTable::make(photons.chains, *context.scene, workers, wanted);
     if (!seeds) return std::nullopt;
     ManifoldPilot pilot{.seeds = *std::move(seeds), .figures = {}, .emission = {}};
     if (pilot.seeds.empty()) return pilot;

@@ -32,7 +32,7 @@ std::vector<LightRecord> some_lights() {
     return lights;
 }
 std::optional<ManifoldSeedTable> made(std::span<const ChainPhoton> photons, const std::vector<LightRecord>& lights,
-                                      const std::function<bool()>& wanted) {
+                                      const std::function<bool()>& wanted, unsigned threads = 1) {
     MaterialRecord materials[2]; // the second of a lamp of glass
     materials[1].flags = material_chains;
     std::vector<PartRecord> parts(9);
@@ -42,7 +42,7 @@ std::optional<ManifoldSeedTable> made(std::span<const ChainPhoton> photons, cons
     scene.materials.materials = materials;
     scene.lights.lights = lights.data();
     scene.lights.count = int32_t(lights.size());
-    return ManifoldSeedTable::make(photons, scene, wanted);
+    return ManifoldSeedTable::make(photons, scene, Workers(threads), wanted);
 }
 ManifoldSeedTable table_of(std::span<const ChainPhoton> photons, const std::vector<LightRecord>& lights) {
     return made(photons, lights, {}).value();
@@ -118,9 +118,31 @@ TEST(ManifoldSeedTable, SunsThatOverlapAreLeftToOtherStrategies) {
         scene.lights.count = 3;
         scene.lights.suns = suns.data();
         scene.lights.sun_count = 3;
-        const ManifoldSeedTable table = ManifoldSeedTable::make(photons, scene, {}).value();
+        const ManifoldSeedTable table = ManifoldSeedTable::make(photons, scene, Workers(1), {}).value();
         const ManifoldTables t = table.tables({});
         for (int light = 0; light < 3; ++light) EXPECT_EQ(t.group_of_light[light] >= 0, !overlap || light == 2) << overlap << light;
+    }
+}
+
+TEST(ManifoldSeedTable, DoesNotDependOnTheNumberOfThreads) {
+    const auto lights = some_lights();
+    const ManifoldSeedTable one = made(some_photons(), lights, {}, 1).value(), four = made(some_photons(), lights, {}, 4).value();
+    const ManifoldTables a = one.tables({}), b = four.tables({});
+    ASSERT_EQ(a.grid, b.grid);
+    int32_t regions = 0, seeds = 0;
+    for (int32_t cell = 0; cell < a.grid.count() * guiding_sides; ++cell) {
+        ASSERT_EQ(a.regions_of_cell[cell], b.regions_of_cell[cell]);
+        regions = std::max(regions, a.regions_of_cell[cell] + 1);
+    }
+    EXPECT_GT(regions, 100);
+    for (int32_t k = 0; k < regions; ++k) {
+        ASSERT_EQ(a.regions[k].first, b.regions[k].first);
+        ASSERT_EQ(a.regions[k].count, b.regions[k].count);
+        seeds = std::max(seeds, a.regions[k].first + a.regions[k].count);
+    }
+    for (int32_t k = 0; k < seeds; ++k) {
+        ASSERT_EQ(a.seeds[k].position, b.seeds[k].position);
+        ASSERT_EQ(a.seeds[k].segment, b.seeds[k].segment);
     }
 }
 

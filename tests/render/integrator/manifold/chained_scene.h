@@ -22,7 +22,7 @@ public:
         std::vector<std::unique_ptr<TileScratch>> scratch(1);
         const auto photons =
             trace_caustic_photons(context(tables, 3), kernels_of("scalar").back(), Workers(1), scratch, [] { return true; });
-        seeds_ = ManifoldSeedTable::make(photons->chains, tables, {}).value();
+        seeds_ = ManifoldSeedTable::make(photons->chains, tables, Workers(1), {}).value();
         EXPECT_FALSE(seeds_.empty());
         tables.manifolds = seeds_.tables(tables.casters);
         emission = LightPathEmission(tables, compiled_.bounding_sphere(),
