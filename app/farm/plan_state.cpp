@@ -10,8 +10,8 @@
 namespace blush {
 namespace {
 
-// The line of a task that Stop ended, while it rendered or before: no failure.
-bool was_stopped(const std::string& line) { return line.find(stopped_by_signal) != std::string::npos || line.ends_with("interrupted"); }
+// The line of a task that Stop ended: no failure.
+bool was_stopped(const std::string& line) { return line.find(stopped_by_signal) != std::string::npos; }
 
 void add_costs(const RenderPlan& plan, FarmPlan& state) {
     const Workload work{int64_t(plan.looks.size()), plan.spp, plan.chunk};

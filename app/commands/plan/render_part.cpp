@@ -1,12 +1,14 @@
 #include "app/commands/plan/render_part.h"
 
 #include "app/commands/common.h"
+#include "app/commands/plan/task_log.h"
 #include "app/commands/progress.h"
 #include "app/commands/render/allocation_file.h"
 #include "app/commands/render/film_json.h"
 #include "app/commands/render/image_metadata.h"
 #include "app/commands/render/layers.h"
 #include "app/commands/render/write_image.h"
+#include "io/gltf/read/import_options.h"
 #include "io/project/scene_edits_json.h"
 #include "io/project/scene_hash.h"
 #include "render/renderer.h"
@@ -28,6 +30,8 @@ Result<LoadedScene> load_look(const std::filesystem::path& folder, const RenderP
         Progress progress(run.quiet);
         return import_scene(file, plan.texture_mib, progress, interrupted);
     }();
+    if (!imported && imported.error().what == import_cancelled)
+        return Error{.file = file.string(), .what = fmt::format("{} before it was read", stopped_by_signal)};
     if (!imported) return imported.error();
     if (const std::string hash = scene_hash(imported->scene); hash != scene.hash)
         return Error{.file = file.string(),
@@ -90,7 +94,7 @@ Result<Part> render_part(const std::filesystem::path& folder, const RenderPlan& 
         loop = run_render_loop(renderer, settings, interrupted,
                                [&](const LoopProgress& p) { progress.update(p.fraction, fmt::format("{} spp", p.samples)); });
     }
-    if (loop.samples == 0) return Error{.file = look.name, .what = "interrupted before the first sample"};
+    if (loop.samples == 0) return Error{.file = look.name, .what = fmt::format("{} before the first sample", stopped_by_signal)};
     Part part{part_file(folder, look, {samples.first, samples.first + loop.samples}),
               {samples.first, samples.first + loop.samples},
               loop.seconds};

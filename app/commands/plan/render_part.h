@@ -22,7 +22,7 @@ struct RenderRun {
 std::filesystem::path scene_path(const std::filesystem::path& folder, const PlanScene& scene);
 
 // Imports the scene of a look and applies its edits. Errors: another scene than when the plan was made, other lights or environment
-// files, unreadable.
+// files, unreadable, interrupted (stopped_by_signal of task_log.h).
 Result<LoadedScene> load_look(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look, const RenderRun& run,
                               const std::atomic<bool>& interrupted);
 
@@ -35,7 +35,7 @@ Result<void> write_part(const std::filesystem::path& file, const RenderPlan& pla
                         const RenderSettings& settings, const LoopResult& loop, Renderer& renderer);
 
 // Renders and writes these samples. If it is interrupted, those so far: a valid, shorter part. Errors: interrupted before the
-// first sample, cannot write.
+// first sample (stopped_by_signal of task_log.h), cannot write.
 Result<Part> render_part(const std::filesystem::path& folder, const RenderPlan& plan, const PlanLook& look, const LoadedScene& loaded,
                          SampleSpan samples, const RenderRun& run, const std::atomic<bool>& interrupted);
 

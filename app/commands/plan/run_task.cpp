@@ -8,8 +8,8 @@
 namespace blush {
 namespace {
 
-Result<TaskResult> render_missing(const std::filesystem::path& folder, const RenderPlan& plan, const PlanTask& task, const RenderRun& run) {
-    const InterruptGuard guard;
+Result<TaskResult> render_missing(const std::filesystem::path& folder, const RenderPlan& plan, const PlanTask& task, const RenderRun& run,
+                                  const InterruptGuard& guard) {
     const PlanLook& look = plan.looks[task.look];
     if (const Result<void> ready = provide_folder(folder, parts_folder(folder, look)); !ready) return ready.error();
     const SampleSpan missing = missing_in(valid_parts(folder, plan, look), task.samples);
@@ -28,6 +28,7 @@ Result<TaskResult> render_missing(const std::filesystem::path& folder, const Ren
 } // namespace
 
 Result<TaskResult> run_task(const std::filesystem::path& folder, size_t number, const RenderRun& run) {
+    const InterruptGuard guard; // before there is a log, which must say how the task ended
     const Result<RenderPlan> plan = read_plan(folder);
     if (!plan) return plan.error();
     if (number < 1 || number > plan->tasks.size())
@@ -35,7 +36,7 @@ Result<TaskResult> run_task(const std::filesystem::path& folder, size_t number, 
                      .what = fmt::format("has the tasks 1 to {}, not {}", plan->tasks.size(), number)};
     if (const Result<void> ready = provide_folder(folder, folder / "logs"); !ready) return ready.error();
     TaskLog log(folder, number);
-    Result<TaskResult> result = render_missing(folder, *plan, plan->tasks[number - 1], run);
+    Result<TaskResult> result = render_missing(folder, *plan, plan->tasks[number - 1], run, guard);
     if (!result)
         log.line("error: " + result.error().text());
     else

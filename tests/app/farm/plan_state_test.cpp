@@ -1,4 +1,6 @@
 // The Farm panel's view of a plan: what it reads from the folder, and how it starts and stops the plan.
+#include "app/commands/plan/render_part.h"
+#include "app/commands/plan/task_log.h"
 #include "app/farm/farm_jobs.h"
 #include "app/farm/plan_state.h"
 #include "tests/app/commands/plan/plan_support.h"
@@ -79,8 +81,24 @@ TEST_F(PlanState, StoppedTasksAreNoProblemInTheLog) {
         return read().problem;
     };
     EXPECT_EQ(problem_after("blush: error: parts/cornell/0-511.exr: stopped by a signal with the samples 0:64 of 0:512"), "");
-    EXPECT_EQ(problem_after("blush: error: cornell.gltf: interrupted"), "");
     EXPECT_EQ(problem_after("blush: error: cornell.gltf: cannot be read"), "cornell.gltf: cannot be read");
+}
+
+// Before there is a sample, too.
+TEST_F(PlanState, StoppedTasksSayThatTheyWere) {
+    plan.make();
+    const RenderPlan read = *read_plan(plan.folder);
+    const RenderRun run{.threads = 1, .quiet = true};
+    const std::atomic<bool> stopped{true}, runs{false};
+    const auto says_so = [](const Error& error) { return error.what.find(stopped_by_signal) != std::string::npos; };
+    const Result<LoadedScene> unread = load_look(plan.folder, read, read.looks[0], run, stopped);
+    ASSERT_FALSE(unread);
+    EXPECT_TRUE(says_so(unread.error())) << unread.error().text();
+    const Result<LoadedScene> loaded = load_look(plan.folder, read, read.looks[0], run, runs);
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    const Result<Part> part = render_part(plan.folder, read, read.looks[0], *loaded, {0, 4}, run, stopped);
+    ASSERT_FALSE(part);
+    EXPECT_TRUE(says_so(part.error())) << part.error().text();
 }
 
 TEST_F(PlanState, SaysWhyAPlanHasStopped) {

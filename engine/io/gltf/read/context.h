@@ -33,7 +33,7 @@ struct GltfContext {
     }
     GltfContext reporting_to(ImportReport& other) const { return {source, options, other, known}; }
     bool cancelled() const { return options.cancel && options.cancel->load(std::memory_order_relaxed); }
-    Error cancel_error() const { return error("cancelled", ""); }
+    Error cancel_error() const { return error(import_cancelled, ""); }
     void progress(double fraction, const std::string& what) const {
         if (options.on_progress) options.on_progress(fraction, what);
     }
