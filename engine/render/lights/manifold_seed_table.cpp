@@ -67,7 +67,7 @@ std::optional<ByKey<const ChainPhoton*>> by_block(const CellBlocks& blocks, std:
         const int32_t low = guiding_cell<float>(blocks.grid, p.position - corner, p.normal), face = low % guiding_sides;
         const int32_t high = guiding_cell<float>(blocks.grid, p.position + corner, p.normal);
         const auto from = blocks.place(blocks.of(low / guiding_sides)), to = blocks.place(blocks.of(high / guiding_sides));
-        // No step is more than one block.
+        // Along each axis, the blocks of both corners are the same or neighbours.
         for (int32_t z = from[2]; z <= to[2]; ++z)
             for (int32_t y = from[1]; y <= to[1]; ++y)
                 for (int32_t x = from[0]; x <= to[0]; ++x) near.emplace_back(blocks.at(x, y, z) * guiding_sides + face, &p);

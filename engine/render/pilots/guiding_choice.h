@@ -35,7 +35,7 @@ public:
     // The field, if it pays; requires that nothing is rendered with this any more.
     std::optional<GuidingField> take_field() { return pays() ? std::exchange(field_, std::nullopt) : std::nullopt; }
 
-    // For images in which manifold sampling finds the light that this would: releases what the pilot has learned, but not its figures.
+    // Where manifold sampling pays, it replaces path guiding: frees the field, but keeps the figures of the pilot.
     void leave_to_manifolds();
 
     // `kept`: the field that is used until the pilot has run; null: none.

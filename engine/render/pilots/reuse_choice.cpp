@@ -41,7 +41,7 @@ int ReuseChoice::group_size(int64_t sample) const {
 FeatureUse ReuseChoice::report(bool excluded) const {
     FeatureUse use{.part = "kernel", .name = "path reuse", .used = first_ > 1 && pays() && !excluded, .why = {}};
     if (excluded && first_ > 1)
-        use.why = "it does not know the densities of light paths and manifold sampling";
+        use.why = "light paths or manifold sampling are used, and it does not know their densities";
     else if (pilot_)
         use.why =
             fmt::format("pilot: variance x work of groups of {} pixels is {:.2f} of that without", pilot_->group_size, pilot_->cost());

@@ -40,7 +40,7 @@ public:
     // The same for the first sample; without path reuse there, no other sample has any.
     int first_group_size() const { return first_; }
 
-    // `excluded`: samples behind the first have none, as other strategies know densities that it does not.
+    // `excluded`: all samples but the first have none, as they use strategies whose densities it does not know.
     FeatureUse report(bool excluded = false) const;
 
 private:

@@ -73,7 +73,7 @@ TEST_F(PlanState, StoppingIsNoFailure) {
     EXPECT_TRUE(eventually([&] { return read().fraction > stopped.fraction; })) << "it does not go on";
 }
 
-// Whichever of the task and the script writes last.
+// The last line of the log is that of the task or that of the script, by chance.
 TEST_F(PlanState, StoppedTasksAreNoProblemInTheLog) {
     plan.make();
     const auto problem_after = [&](const std::string& line) {
@@ -84,7 +84,7 @@ TEST_F(PlanState, StoppedTasksAreNoProblemInTheLog) {
     EXPECT_EQ(problem_after("blush: error: cornell.gltf: cannot be read"), "cornell.gltf: cannot be read");
 }
 
-// Before there is a sample, too.
+// A task may be stopped while it reads its scene, and before its first sample.
 TEST_F(PlanState, StoppedTasksSayThatTheyWere) {
     plan.make();
     const RenderPlan read = *read_plan(plan.folder);

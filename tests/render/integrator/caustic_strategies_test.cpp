@@ -62,8 +62,9 @@ TEST(CausticStrategies, AreChosenByPilotsWithinTheSetting) {
     EXPECT_EQ(used("cornell", CausticStrategy::automatic), "000");
 }
 
-// Whatever is asked for: path reuse does not know the densities of light paths and manifold sampling.
-TEST(CausticStrategies, ThatExcludePathReuseAreReported) {
+// Path reuse does not know the densities of light paths and manifold sampling. Where these are used, it is reported as left out, whether
+// it is automatic or set to groups of 8 pixels.
+TEST(CausticStrategies, SwitchPathReuseOffAndSaySo) {
     for (const int reuse : {reuse_auto, 8}) {
         RenderSettings settings = settings_for(160, 90, 2);
         settings.reuse = reuse;
