@@ -7,7 +7,7 @@
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
 #include "render/error/small_highlights.h"
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 #include "render/film/film.h"
 #include "render/film/film_columns.h"
 #include "render/film/pilot_variance.h"

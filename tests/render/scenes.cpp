@@ -17,6 +17,14 @@ Material window_glass(const Vec3& tint) {
     pane.base_color = tint;
     return pane;
 }
+void place_sphere_light(Scene& scene, const Vec3& position, float radius, float intensity) {
+    Light light;
+    light.kind = Light::Kind::sphere;
+    light.radius = radius;
+    light.intensity = intensity;
+    place_light(scene, light, at(position));
+}
+
 Scene glass_ball_in_sun() {
     Scene scene;
     place(scene, floor_quad(3), lambert(0.7f));

@@ -19,6 +19,9 @@ const std::vector<std::string>& caustic_scene_names();
 // Window glass as glTF writes it, a pane: transmission without volume, no roughness.
 Material window_glass(const Vec3& tint = {1, 1, 1});
 
+// A light of this radius, metres, and intensity, candela.
+void place_sphere_light(Scene& scene, const Vec3& position, float radius, float intensity);
+
 // A glass ball on a floor in the light of a wide sun.
 Scene glass_ball_in_sun();
 // A shipped scene with suns and lamps so large that paths without the strategies for caustics find them too: means of fewer would

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 
 #include <array>
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include "render/error/error_estimate.h"
 #include "render/film/bounce_planes.h"
 #include "render/film/clamp_stats.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 #include "render/film/film_size.h"
 #include "render/film/found_by.h"
 #include "render/film/group_planes.h"

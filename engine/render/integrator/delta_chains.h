@@ -5,6 +5,7 @@
 // roulette (Arvo and Kirk 1990), so a sample has no more chains than its light needs, and none adds more than its share of a lamp.
 #pragma once
 
+#include "render/film/edges/highlight_places.h"
 #include "render/integrator/wavefront.h"
 #include "shading/delta_lobes.h"
 
@@ -73,7 +74,8 @@ void limit_chains(Column<int32_t>& alive, const Int<F>& slots, const F& choice, 
 
 // Sorts the entries of a queue from `first` on, which are those of lobes[0], lobes[1], ..., by lane, and those of a lane by lobe: so the
 // chains of a sample keep their order whatever other samples a register holds.
-template <Features S> void sort_by_lane(PathQueue& q, Column<float>& share, int first, const std::array<unsigned, num_delta_lobes>& lobes) {
+template <Features S> void sort_by_lane(PathQueue& q, Column<float>& share, Column<int32_t>& codes, int first,
+                                        const std::array<unsigned, num_delta_lobes>& lobes) {
     int order[num_delta_lobes * 32], count = 0;
     for_each_lane(lobes[0] | lobes[1] | lobes[2], [&](int i) {
         int begin = first;
@@ -91,7 +93,7 @@ template <Features S> void sort_by_lane(PathQueue& q, Column<float>& share, int 
         };
         (sort_one(columns), ...);
     };
-    sort(q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.beta_r, q.beta_g, q.beta_b, q.pdf, q.key, q.index, q.slot, share);
+    sort(q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.beta_r, q.beta_g, q.beta_b, q.pdf, q.key, q.index, q.slot, share, codes);
     if constexpr (S.has(Feature::light_tree)) sort(q.nx, q.ny, q.nz);
     if constexpr (S.has(Feature::textures)) sort(q.cone);
     if constexpr (S.has(Feature::links)) sort(q.part);
@@ -145,12 +147,46 @@ template <Features S, class F> Path<F> chain_behind(const Path<F>& path, const S
     return next;
 }
 
+// The code of a lobe behind the surface of number `bounce`, in its place of ChainLobeCodes::codes.
+inline int32_t code_of(size_t lobe, int bounce) { return int32_t(uint32_t(lobe) << (ChainLobeCodes::bits_per_lobe * bounce)); }
+
+// Of followed chains: leaves the lobe that comes next.
+template <class F>
+void keep_known_lobe(const ChainColumns& chains, const Int<F>& slots, int bounce, const Mask<F>& active, ChainLobes<F>& lobes) {
+    alignas(64) int32_t codes[width<F>]{};
+    for_each_lane(bits(active), [&](int i) {
+        codes[i] = int32_t(chains.followed[size_t(lane(slots, i))].lobes.codes >> (ChainLobeCodes::bits_per_lobe * bounce) &
+                           ((1u << ChainLobeCodes::bits_per_lobe) - 1));
+    });
+    const Int<F> code = load<Int<F>>(codes);
+    for (size_t l = 0; l < num_delta_lobes; ++l) lobes.lanes[l] = lobes.lanes[l] && as_mask(code == int32_t(l));
+}
+
+// Of followed chains: keeps the rays behind the last lobes. Returns their lanes.
+template <class F> Mask<F> keep_ends(ChainColumns& chains, const Path<F>& behind, int bounce, const Mask<F>& lanes) {
+    alignas(64) int32_t counts[width<F>]{};
+    for_each_lane(bits(lanes), [&](int i) { counts[i] = chains.followed[size_t(lane(behind.slot, i))].lobes.count; });
+    const Mask<F> ends = lanes && as_mask(load<Int<F>>(counts) == int32_t(bounce + 1));
+    for_each_lane(bits(ends), [&](int i) {
+        const auto at = [&](const Vec<F>& v) { return Vec3{lane(v.x, i), lane(v.y, i), lane(v.z, i)}; };
+        chains.ends[size_t(lane(behind.slot, i))] = {at(behind.ray.origin), at(behind.ray.direction), true};
+    });
+    return ends;
+}
+
+// Of a chain in a queue: its share and the codes of its lobes.
+template <class F> struct ChainSoFar {
+    F share;
+    Int<F> codes;
+};
+
 // Looks for lamps within a cone of 15 degrees around the chain's next ray, by one sampled point on a light, and queues its shadow ray,
 // whose slot is the number of the sighting. Within that cone it stands for the light: with throughput beta, radiance L and pdf p it adds
 // beta L / (p w) to the mean radiance and 1 / (p w) to the rate, w being the solid angle of the cone. This is a kernel density estimate
 // (Silverman 1986): a cone some hundred times as large as a lamp is met as much more often.
 template <Features S, class F> [[gnu::noinline]] void sight_lamps(const KernelContext& context, TileScratch& scratch, const Path<F>& next,
-                                                                  const F& share, int bounce, size_t first, const Mask<F>& active) {
+                                                                  const ChainSoFar<F>& chain, int bounce, size_t first,
+                                                                  const Mask<F>& active) {
     const SceneTables& scene = *context.scene;
     ChainColumns& chains = *scratch.chains;
     const Pair<F> random =
@@ -172,8 +208,17 @@ template <Features S, class F> [[gnu::noinline]] void sight_lamps(const KernelCo
     alignas(64) int32_t numbers[width<F>]{};
     for_each_lane(bits(near), [&](int i) {
         numbers[i] = number++;
-        chains.sightings.push_back(
-            {lane(next.slot, i), lane(apart, i), lane(share, i), 1 / (double(lane(in.pdf, i)) * double(sighting_angle)), {}});
+        chains.sightings.push_back({.slot = lane(next.slot, i),
+                                    .apart = lane(apart, i),
+                                    .share = lane(chain.share, i),
+                                    .rate = 1 / (double(lane(in.pdf, i)) * double(sighting_angle)),
+                                    .light = {},
+                                    .film_x = chains.film_x[lane(next.slot, i)],
+                                    .film_y = chains.film_y[lane(next.slot, i)],
+                                    .lobes = {uint32_t(lane(chain.codes, i)), bounce + 1},
+                                    .light_index = lane(light.light, i),
+                                    .target = {lane(light.position.x, i), lane(light.position.y, i), lane(light.position.z, i)},
+                                    .target_density = lane(light.density, i)});
     });
     if (scene.blends)
         compress(scratch.shadows.random + scratch.shadows.size, opacity_random<F>(next.key, next.index, uint32_t(bounce + 1)), bits(near));
@@ -203,7 +248,12 @@ template <Features S, class F> void add_met_emission(const KernelContext& contex
                                                      const Path<F>& path, const F& share, int bounce, const Mask<F>& active,
                                                      Step<F>& step) {
     const Mask<F> emits = step.emits;
-    const F light = luminance(step.emitted), squares = light * light / share;
+    F weight = F(1.f);
+    if (scratch.chains->places) {
+        const F aimed = gather(scratch.chains->weight.data, path.slot); // -1: does not aim
+        weight = select(aimed > F(0.f), aimed, F(1.f));
+    }
+    const F light = luminance(step.emitted), squares = light * light / (share * weight);
     for_each_lane(bits(emits), [&](int i) { scratch.chains->path_squares[lane(path.slot, i)] += double(lane(squares, i)); });
     add_emission<S, F>(context, scratch, now.slot + k, k, path, bounce, active, step);
 }
@@ -218,6 +268,7 @@ shade_chain(const KernelContext& context, TileScratch& scratch, const PathQueue&
     if constexpr (S.has(Feature::links)) path.part = load<Int<F>>(now.part + k);
     if constexpr (S.has(Feature::dispersion)) path.dispersed = load<Int<F>>(now.dispersed + k);
     const F share = load<F>(chains.share[queue] + k);
+    const Int<F> codes = load<Int<F>>(chains.lobes[queue] + k);
     const Mask<F> active = as_mask(iota<F>() + k < now.size);
     const Hit<F> hit = load_hit<F>(scratch.hits, k);
 
@@ -231,7 +282,7 @@ shade_chain(const KernelContext& context, TileScratch& scratch, const PathQueue&
     const ShadedHit<F> p = shade_hit<S, F>(scene, settings.energy, path, hit, lanes.surface, width_of_filter);
     hit_emitter<S, F>(scene, settings.mis, path, hit, p.surface, p.material, p.side, p.arriving, lanes.surface, step);
     hit_unlit<S, F>(p.material, p.arriving, lanes.surface, step);
-    if (!chains.sights) add_met_emission<S, F>(context, scratch, now, k, path, share, bounce, active, step);
+    if (chains.task == ChainTask::emission) add_met_emission<S, F>(context, scratch, now, k, path, share, bounce, active, step);
     if (bounce >= settings.max_bounces) return;
     if (!any(p.scatters)) {
         for_each_lane(bits(active), [&](int i) { --chains.alive[lane(path.slot, i)]; });
@@ -245,24 +296,29 @@ shade_chain(const KernelContext& context, TileScratch& scratch, const PathQueue&
         if (scene.panes) setup = scatter_setup<S, F>(scene, p.material, point);
     const Pair<F> choice =
         Sampler<F>{path.key, path.index}.pair(first_scatter_dimension + dimensions_per_scatter * uint32_t(bounce) + choice_dimension);
-    ChainLobes<F> lobes = chain_lobes<S, F>(path, p, setup, share, bounce, choice.y());
+    const bool follows = chains.task == ChainTask::follow;
+    ChainLobes<F> lobes = chain_lobes<S, F>(path, p, setup, share, bounce, follows ? F(0.f) : choice.y());
+    if (follows) keep_known_lobe<F>(chains, path.slot, bounce, active, lobes);
     limit_chains<F>(chains.alive, path.slot, choice.x(), active, lobes);
     const int first = next.size;
     std::array<unsigned, num_delta_lobes> appended{};
     for (size_t l = 0; l < num_delta_lobes; ++l) {
         if (!any(lobes.lanes[l])) continue;
         const Path<F> behind = chain_behind<S, F>(path, point, setup, lobes, l, cone, bounce);
-        const Mask<F> finite = is_finite(F(behind.beta.x + behind.beta.y + behind.beta.z)), continues = lobes.lanes[l] && finite;
+        const Mask<F> finite = is_finite(F(behind.beta.x + behind.beta.y + behind.beta.z));
+        Mask<F> continues = lobes.lanes[l] && finite;
         add_light<F>(scratch, now.slot + k, behind.beta, lobes.lanes[l] && !finite); // the film drops and counts the sample
+        if (follows) continues = continues && !keep_ends<F>(chains, behind, bounce, continues);
         appended[l] = bits(continues);
         compress(chains.share[1 - queue] + next.size, lobes.share[l], appended[l]);
+        compress(chains.lobes[1 - queue] + next.size, Int<F>(codes | code_of(l, bounce)), appended[l]);
         if constexpr (S.has(Feature::links)) compress(next.part + next.size, behind.part, appended[l]);
         if constexpr (S.has(Feature::dispersion)) compress(next.dispersed + next.size, behind.dispersed, appended[l]);
         append<S, F>(next, behind, continues);
-        if (!chains.sights) continue;
+        if (chains.task != ChainTask::sight) continue;
         for_each_lane(appended[l], [&](int i) { chains.turned[size_t(lane(path.slot, i))] = 1; });
     }
-    if (next.size > first) sort_by_lane<S>(next, chains.share[1 - queue], first, appended);
+    if (next.size > first) sort_by_lane<S>(next, chains.share[1 - queue], chains.lobes[1 - queue], first, appended);
 }
 
 template <Features S, class F> [[gnu::flatten]] void shade_chains(const KernelContext& context, TileScratch& scratch, const PathQueue& now,
@@ -278,37 +334,108 @@ void sight_lamps_of(const KernelContext& context, TileScratch& scratch, const Pa
     scratch.shadows.size = 0;
     for (int k = 0; k < rays.size; k += width<F>) {
         const Path<F> path = load_path<S, F>(rays, k);
-        const F share = load<F>(scratch.chains->share[queue] + k);
-        sight_lamps<S, F>(context, scratch, path, share, bounce, first, as_mask(iota<F>() + k < rays.size));
+        const ChainSoFar<F> chain{load<F>(scratch.chains->share[queue] + k), load<Int<F>>(scratch.chains->lobes[queue] + k)};
+        sight_lamps<S, F>(context, scratch, path, chain, bounce, first, as_mask(iota<F>() + k < rays.size));
     }
     scratch.shadow_rays += scratch.shadows.size;
     keep_arrived<S, F>(context, scratch, bounce, first);
 }
 
-// The emission at the end of chains of at most `max_bounces` delta lobes: the same mean, for each slot, as render_tile() with
-// `emission_only`. Or, if ChainColumns::sights, the lamps that the chains of its samples nearly meet. The tile or the samples have at most
-// tile_capacity / most_copies slots.
+// The samples of the tile or of the task, and their first rays. Returns their number.
+template <Features S, class F> int begin_chains(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
+    ChainColumns& chains = *scratch.chains;
+    if (chains.task == ChainTask::emission) {
+        generate_paths<S, F>(context, job, scratch);
+        return job.paths();
+    }
+    const SampleColumns to = sample_columns(scratch);
+    const int n = int(chains.task == ChainTask::sight ? chains.samples.size() : chains.followed.size());
+    for (int k = 0; k < n; ++k) {
+        const ChainStart& from = chains.task == ChainTask::sight ? chains.samples[size_t(k)] : chains.followed[size_t(k)].sample;
+        to.x[k] = from.x, to.y[k] = from.y, to.sample[k] = from.index;
+    }
+    begin_paths<S, F>(context, n, scratch);
+    return n;
+}
+
+// The positions of the samples on the film: of paths; and in pixels with places of highlights those that aim at them, as far as `places` is
+// set.
+template <Features S, class F> void find_film_positions(const KernelContext& context, int n, TileScratch& scratch) {
+    ChainColumns& chains = *scratch.chains;
+    const PathQueue& q = scratch.paths[0];
+    const SampleColumns pixels = sample_columns(scratch);
+    const FilterTable& filter = *context.settings.filter;
+    const bool aims = chains.places != nullptr;
+    for (int k = 0; k < n; k += width<F>) {
+        const Pair<F> in_pixel = Sampler<F>{load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k)}.pair(0);
+        store(chains.film_x + k, aims ? in_pixel.x() : load<F>(pixels.x + k) + 0.5f + filter_offset(filter, in_pixel.x()));
+        store(chains.film_y + k, aims ? in_pixel.y() : load<F>(pixels.y + k) + 0.5f + filter_offset(filter, in_pixel.y()));
+        store(chains.weight + k, F(1.f));
+    }
+    if (aims) aim_samples(*chains.places, filter, n, {pixels.x, pixels.y, chains.film_x, chains.film_y, chains.weight});
+}
+
+// Makes the first rays those through the positions on the film, where these have a weight.
+template <Features S, class F> void move_on_film(const KernelContext& context, int n, TileScratch& scratch) {
+    const ChainColumns& chains = *scratch.chains;
+    PathQueue& q = scratch.paths[0];
+    const EstimatorSettings& settings = context.settings;
+    for (int k = 0; k < n; k += width<F>) {
+        const F weight = load<F>(chains.weight + k);
+        const Mask<F> moved = weight >= F(0.f);
+        if (!any(moved)) continue;
+        F lens_u = F(0.f), lens_v = F(0.f);
+        if constexpr (S.has(Feature::thin_lens)) {
+            const Pair<F> on_lens = Sampler<F>{load<UInt<F>>(q.key + k), load<UInt<F>>(q.index + k)}.pair(1);
+            lens_u = on_lens.x();
+            lens_v = on_lens.y();
+        }
+        const Ray<F> ray = camera_ray<S, F>(context.scene->camera, load<F>(chains.film_x + k), load<F>(chains.film_y + k), settings.width,
+                                            settings.height, lens_u, lens_v);
+        const auto set = [&](float* column, const F& value) { store(column + k, select(moved, value, load<F>(column + k))); };
+        set(q.ox, ray.origin.x), set(q.oy, ray.origin.y), set(q.oz, ray.origin.z);
+        set(q.dx, ray.direction.x), set(q.dy, ray.direction.y), set(q.dz, ray.direction.z);
+        set(q.beta_r, weight), set(q.beta_g, weight), set(q.beta_b, weight);
+    }
+}
+
+// What the task needs of the samples before their first rays.
+template <Features S, class F> void begin_task(const KernelContext& context, int n, TileScratch& scratch) {
+    ChainColumns& chains = *scratch.chains;
+    std::fill_n(chains.share[0].data, n, 1.f);
+    std::fill_n(chains.lobes[0].data, n, 0);
+    std::fill_n(chains.alive.data, n, 1);
+    switch (chains.task) {
+    case ChainTask::emission:
+        if (scratch.bounces) scratch.bounces->begin();
+        std::fill_n(chains.path_squares.data, n, 0.0);
+        if (!chains.places) return;
+        find_film_positions<S, F>(context, n, scratch);
+        move_on_film<S, F>(context, n, scratch);
+        return;
+    case ChainTask::sight:
+        std::fill(chains.turned.begin(), chains.turned.end(), uint8_t(0));
+        find_film_positions<S, F>(context, n, scratch);
+        return;
+    case ChainTask::follow:
+        for (int k = 0; k < n; ++k) {
+            chains.film_x[k] = chains.followed[size_t(k)].film_x;
+            chains.film_y[k] = chains.followed[size_t(k)].film_y;
+            chains.weight[k] = 1;
+            chains.ends[size_t(k)].valid = false;
+        }
+        move_on_film<S, F>(context, n, scratch);
+    }
+}
+
+// Does the ChainTask of `scratch` for chains of at most `max_bounces` delta lobes. Emission has the same mean, for each slot, as
+// render_tile() with `emission_only`. The tile or the samples of the task have at most tile_capacity / most_copies slots.
 template <Features S, class F> void trace_delta_chains(const KernelContext& context, const TileJob& job, TileScratch& scratch) {
     StageTimer timer(scratch.stages);
     if (!scratch.chains) scratch.chains = std::make_unique<ChainColumns>();
     ChainColumns& chains = *scratch.chains;
-    int n = job.paths();
-    if (chains.sights) {
-        n = int(chains.samples.size());
-        const SampleColumns to = sample_columns(scratch);
-        for (int k = 0; k < n; ++k) {
-            const ChainStart& from = chains.samples[size_t(k)];
-            to.x[k] = from.x, to.y[k] = from.y, to.sample[k] = from.index;
-        }
-        begin_paths<S, F>(context, n, scratch);
-        std::fill(chains.turned.begin(), chains.turned.end(), uint8_t(0));
-    } else {
-        generate_paths<S, F>(context, job, scratch);
-        if (scratch.bounces) scratch.bounces->begin();
-        std::fill_n(chains.path_squares.data, n, 0.0);
-    }
-    std::fill_n(chains.share[0].data, n, 1.f);
-    std::fill_n(chains.alive.data, n, 1);
+    const int n = begin_chains<S, F>(context, job, scratch);
+    begin_task<S, F>(context, n, scratch);
     timer.end(Stage::generate);
     for (int bounce = 0, queue = 0; scratch.paths[queue].size > 0; ++bounce, queue = 1 - queue) {
         PathQueue &now = scratch.paths[queue], &next = scratch.paths[1 - queue];
@@ -316,9 +443,9 @@ template <Features S, class F> void trace_delta_chains(const KernelContext& cont
         trace_paths<S, F>(context, scratch, now, next, bounce);
         timer.end(Stage::trace);
         shade_chains<S, F>(context, scratch, now, next, queue, bounce);
-        if (chains.sights)
+        if (chains.task == ChainTask::sight)
             sight_lamps_of<S, F>(context, scratch, next, 1 - queue, bounce);
-        else if (scratch.bounces)
+        else if (chains.task == ChainTask::emission && scratch.bounces)
             record_bounce(scratch, n, bounce);
         timer.end(Stage::shade);
     }

@@ -1,6 +1,6 @@
 #include "render/pilots/light_path_pilot.h"
 
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 #include "render/pilots/pilot_tiles.h"
 #include "render/pilots/variant_comparison.h"
 

@@ -2,7 +2,7 @@
 #include "core/math.h"
 #include "render/error/error_estimate.h"
 #include "render/error/neighborhood_filter.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // samples they are traced with, in every instruction set.
 #include "render/compile/expand_area_lights.h"
 #include "render/compile/render_scene.h"
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 #include "render/integrator/kernel_settings.h"
 #include "tests/render/scenes.h"
 #include "tests/support/images.h"
@@ -39,18 +39,10 @@ struct Emission {
     }
 };
 
-void place_lamp(Scene& scene, const Vec3& position, float radius, float intensity) {
-    Light light;
-    light.kind = Light::Kind::sphere;
-    light.radius = radius;
-    light.intensity = intensity;
-    place_light(scene, light, at(position));
-}
-
 Scene before(float background) {
     Scene scene;
     constant_world(scene, background);
-    place_lamp(scene, {1, 2.5f, 2}, 0.5f, 40);
+    place_sphere_light(scene, {1, 2.5f, 2}, 0.5f, 40);
     scene.view = looking({0, 0.3f, 4}, {0, 0, 0}, 0.5f);
     return scene;
 }
@@ -137,11 +129,58 @@ TEST(DeltaChains, HaveTheMeanAndTheSecondMomentOfPaths) {
     }
 }
 
+// Places that cover lamps, parts of them or none.
+HighlightPlaces any_places(const FilterTable& filter) {
+    std::vector<HighlightPlace> places;
+    for (int y = 0; y < height; y += 2)
+        for (int x = 0; x < width; x += 3)
+            places.push_back({.x = x + 0.4, .y = y + 0.9, .ax = 0.3, .ay = 0.1, .bx = -0.05, .by = 0.4, .light = 1.0 + x});
+    return HighlightPlaces(places, width, height, filter);
+}
+
+TEST(DeltaChains, ThatAimAtPlacesHaveTheSameMeanAndSecondMomentOfPaths) {
+    const auto all = scenes();
+    const double alpha = statistics::sidak(statistics::significance, 2 * int64_t(all.size()));
+    for (const auto& [name, scene] : all) {
+        Emission emission(scene);
+        const Kernel& kernel = choose_kernel(emission.scene.features());
+        const HighlightPlaces places = any_places(*emission.context.settings.filter);
+        const auto tile = std::make_unique<TileScratch>();
+        Moments plain, aimed, plain_squares, aimed_squares;
+        int64_t moved = 0;
+        emission.run([&] {
+            for (int y = 0; y < height; ++y)
+                for (int pass = 0; pass < 32; ++pass) {
+                    const TileJob job{.x = 0, .y = y, .width = width, .height = 1, .first_sample = pass * 32, .samples = at_once / width};
+                    kernel.trace_chains(emission.context, job, *tile);
+                    for (int k = 0; k < job.paths(); ++k) {
+                        plain.add(luminance_of(*tile, k));
+                        plain_squares.add(tile->chains->path_squares[k]);
+                    }
+                    KernelContext other = emission.context;
+                    other.seed = 8;
+                    tile->chains->places = &places;
+                    kernel.trace_chains(other, job, *tile);
+                    tile->chains->places = nullptr;
+                    for (int k = 0; k < job.paths(); ++k) {
+                        aimed.add(luminance_of(*tile, k));
+                        aimed_squares.add(tile->chains->path_squares[k]);
+                        moved += tile->chains->weight[k] >= 0;
+                    }
+                }
+        });
+        EXPECT_GT(moved, 0) << name;
+        EXPECT_LT(moved, aimed.count) << name << ": every pixel has a place";
+        EXPECT_TRUE(statistics::same_mean(plain, aimed, alpha)) << name;
+        EXPECT_TRUE(statistics::same_mean(plain_squares, aimed_squares, alpha)) << name;
+    }
+}
+
 // The image of a lamp after four reflections within a ball: a path meets it with all its light, chains with a share.
 TEST(DeltaChains, BoundTheLightOfFaintImages) {
     Scene scene;
     place(scene, sphere(false), glass(0, 1.5f));
-    place_lamp(scene, {1, 3, 2}, 0.3f, 100);
+    place_sphere_light(scene, {1, 3, 2}, 0.3f, 100);
     scene.view = looking({0, 0.5f, 4}, {0, 0, 0}, 0.7f);
     Emission emission(scene);
     const Kernel& kernel = choose_kernel(emission.scene.features());
@@ -172,7 +211,10 @@ TEST(DeltaChains, AreTheSameWhateverTheyAreTracedWith) {
         const TileJob all{.x = 2, .y = 3, .width = 8, .height = 4, .first_sample = 5, .samples = 16};
         ASSERT_EQ(all.paths(), at_once);
         std::vector<double> expected;
+        const HighlightPlaces places = any_places(*emission.context.settings.filter);
         const auto tile = std::make_unique<TileScratch>();
+        tile->chains = std::make_unique<ChainColumns>();
+        tile->chains->places = &places;
         const auto append = [&](std::vector<double>& to, const TileJob& job) {
             for (int k = 0; k < job.paths(); ++k)
                 for (const double v : {tile->r[k], tile->g[k], tile->b[k], tile->chains->path_squares[k]}) to.push_back(v);

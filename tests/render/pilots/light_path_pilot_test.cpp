@@ -1,7 +1,7 @@
 // The pilot of light paths: what it knows of their work, and which noise it leaves out.
 #include "render/pilots/light_path_pilot.h"
 
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 #include "render/pilots/variant_comparison.h"
 #include "tests/render/pilots/pilot_checks.h"
 #include "tests/render/scenes.h"

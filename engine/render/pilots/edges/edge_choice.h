@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/compile/feature_report.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 #include "scene/render_settings.h"
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 #include "render/pilots/edges/edge_pilot.h"
 
 #include "core/math.h"
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
+#include "render/pilots/edges/highlight_location.h"
 #include "render/pilots/edges/highlight_samples.h"
 #include "render/pilots/pilot_tiles.h"
 #include "render/pilots/variant_comparison.h"
@@ -37,9 +38,9 @@ struct Samples {
 };
 
 constexpr int first_measured_samples = 32, measured_samples = 128;
-constexpr size_t nearest_measured = 512; // that take all of these in any case
+constexpr size_t nearest_measured = 256; // that take all of these in any case
 constexpr double significant_sigmas = 2; // of what was sighted, beyond what the samples met
-constexpr int fewest_measured = 512, most_measured = 4096, pixels_per_measured = 64;
+constexpr int fewest_measured = 512, most_measured = 2048, pixels_per_measured = 64;
 
 class Pilot {
 public:
@@ -67,7 +68,8 @@ private:
     double other_light(int x, int y) const;
     bool is_edge(int x, int y, TileScratch& scratch) const;
     bool find_edges(EdgePixels& pixels);
-    void choose_measured(const Sightings& sightings);
+    void choose_measured(const std::vector<Sighting>& nearest, double spacing, size_t most);
+    bool locate(const Sightings& sightings);
     bool measure_all();
     // Adds samples.
     void measure(MeasuredPixel& pixel, int samples, TileScratch& scratch) const;
@@ -96,6 +98,7 @@ private:
     std::vector<MeasuredPixel> measured_;
     std::vector<int32_t> place_;   // by pixel: in `measured_`; -1: none
     std::vector<FaintCell> cells_; // of the sightings
+    HighlightPlaces places_;
 };
 
 bool Pilot::render(KernelContext context, const Kernel& kernel, int divider, int per_pixel, Samples& to) {
@@ -200,42 +203,51 @@ template <class Take> void Pilot::for_each_near(const MeasuredPixel& pixel, cons
             if (const MeasuredPixel* near = measured_at(x, y)) take(*near);
 }
 
-// The pixels around each sighting, as far as the next path that looked for them: nearest lamps first, while there are not too many pixels.
-// Light that is seen in more pixels than these has no small highlights: an environment in glass.
-void Pilot::choose_measured(const Sightings& sightings) {
+// The pixels in which highlights were located, and those around each sighting without, as far as the next path that looked for them:
+// nearest lamps first, while there are not too many pixels.
+void Pilot::choose_measured(const std::vector<Sighting>& nearest, double spacing, size_t most) {
     place_.assign(size_t(seen_.width) * size_t(seen_.height), -1);
-    const auto most = size_t(std::clamp(int(place_.size()) / pixels_per_measured, fewest_measured, most_measured));
-    const int reach = int(std::ceil(sightings.spacing));
-    SmallHighlights sighted = highlights_of(sightings);
-    std::vector<Sighting> nearest = sightings.all;
-    std::erase_if(nearest, [&](const Sighting& s) { return sighted.of(s.luminance).rate * double(place_.size()) > double(most); });
-    std::ranges::stable_sort(nearest, {}, &Sighting::apart);
+    const auto add = [&](int x, int y, double sighted) {
+        int32_t& place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
+        if (place < 0) {
+            if (measured_.size() == most) return;
+            place = int32_t(measured_.size());
+            measured_.push_back({.x = x, .y = y});
+        }
+        MeasuredPixel& pixel = measured_[size_t(place)];
+        pixel.sighted = std::min(pixel.sighted, sighted);
+    };
+    places_.for_each_pixel(add);
+    const int reach = int(std::ceil(spacing));
     for (const Sighting& s : nearest)
         for (int y = std::max(0, s.y - reach); y <= std::min(seen_.height - 1, s.y + reach); ++y)
-            for (int x = std::max(0, s.x - reach); x <= std::min(seen_.width - 1, s.x + reach); ++x) {
-                int32_t& place = place_[size_t(y) * size_t(seen_.width) + size_t(x)];
-                if (place < 0) {
-                    if (measured_.size() == most) continue;
-                    place = int32_t(measured_.size());
-                    measured_.push_back({.x = x, .y = y});
-                }
-                MeasuredPixel& pixel = measured_[size_t(place)];
-                pixel.sighted = std::min(pixel.sighted, s.luminance);
-            }
+            for (int x = std::max(0, s.x - reach); x <= std::min(seen_.width - 1, s.x + reach); ++x) add(x, y, s.luminance);
 }
 
 // Most pixels near a sighting do not have the highlight: all take a few samples, and the nearest ones and those at which a highlight was
-// met take the others.
+// met take the others. A few are enough where samples aim at it.
 bool Pilot::measure_all() {
     const auto measure_some = [&](const std::vector<size_t>& places, int samples) {
-        return workers_.for_each(int64_t(places.size()), wanted_,
-                                 [&](int64_t i, unsigned worker) { measure(measured_[places[size_t(i)]], samples, *scratch_[worker]); });
+        for (auto& s : scratch_) {
+            s->bounces = std::make_unique<BounceColumns>(1); // to tell emission that is seen directly
+            if (!s->chains) s->chains = std::make_unique<ChainColumns>();
+            s->chains->places = places_.empty() ? nullptr : &places_;
+        }
+        const bool all = workers_.for_each(int64_t(places.size()), wanted_, [&](int64_t i, unsigned worker) {
+            measure(measured_[places[size_t(i)]], samples, *scratch_[worker]);
+        });
+        for (auto& s : scratch_) {
+            s->bounces.reset();
+            s->chains->places = nullptr;
+        }
+        return all;
     };
     std::vector<size_t> places(measured_.size());
     std::iota(places.begin(), places.end(), size_t(0));
     if (!measure_some(places, first_measured_samples)) return false;
     std::vector<uint8_t> is_near(measured_.size());
-    std::fill_n(is_near.begin(), std::min(is_near.size(), nearest_measured), true);
+    std::erase_if(places, [&](size_t place) { return places_.aims(measured_[place].x, measured_[place].y); });
+    for (size_t k = 0; k < std::min(places.size(), nearest_measured); ++k) is_near[places[k]] = true;
     for (const MeasuredPixel& pixel : measured_)
         if (pixel.has_highlight())
             for_each_near(pixel, [&](const MeasuredPixel& near) { is_near[size_t(&near - measured_.data())] = true; });
@@ -245,7 +257,6 @@ bool Pilot::measure_all() {
 
 void Pilot::measure(MeasuredPixel& pixel, int samples, TileScratch& scratch) const {
     const int64_t before = scratch.camera_rays + scratch.bounce_rays;
-    scratch.bounces = std::make_unique<BounceColumns>(1); // to tell emission that is seen directly
     const TileJob job{.x = pixel.x, .y = pixel.y, .width = 1, .height = 1, .first_sample = pixel.measured, .samples = samples};
     kernels_.emission.trace_chains(chains_, job, scratch);
     pixel.rays += double(scratch.camera_rays + scratch.bounce_rays - before);
@@ -265,7 +276,6 @@ void Pilot::measure(MeasuredPixel& pixel, int samples, TileScratch& scratch) con
         if (const double met = luminance(light); met > 0 && std::isfinite(behind) && behind > 0)
             pixel.met.push_back({met, behind / met, met * met / behind, light});
     }
-    scratch.bounces.reset();
 }
 
 // Once all are measured.
@@ -371,9 +381,23 @@ void Pilot::measure_cells(const Sightings& sightings, double unexplained) {
     }
 }
 
+// Finds the places of highlights and the pixels to measure. False if not wanted any more.
+bool Pilot::locate(const Sightings& sightings) {
+    const auto pixels = seen_.luminance.size();
+    const auto most = size_t(std::clamp(int(pixels) / pixels_per_measured, fewest_measured, most_measured));
+    const std::vector<Sighting> nearest = small_highlights(sightings, double(most), double(pixels));
+    auto located = locate_highlights(chains_, kernels_.emission, nearest, sightings.spacing, workers_, scratch_, wanted_);
+    if (!located) return false;
+    places_ = HighlightPlaces(located->places, seen_.width, seen_.height, *context_.settings.filter);
+    std::vector<Sighting> others;
+    for (size_t k = 0; k < nearest.size(); ++k)
+        if (!located->by_sighting[k]) others.push_back(nearest[k]);
+    choose_measured(others, sightings.spacing, most);
+    return true;
+}
+
 bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
-    choose_measured(sightings);
-    if (!measure_all()) return false;
+    if (!locate(sightings) || !measure_all()) return false;
     for (MeasuredPixel& pixel : measured_) estimate(pixel);
     const double unexplained = unexplained_variance(sightings);
     measure_cells(sightings, unexplained);
@@ -395,6 +419,7 @@ bool Pilot::find_highlights(const Sightings& sightings, EdgesFound& found) {
                 if (!measured_at(x, y)) found.pixels.add(x, y, faint_highlight_samples);
     }
     add_unmeasured(sightings, found.highlights);
+    if (!found.pixels.empty()) found.pixels.aim_at(std::move(places_));
     return true;
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "render/error/small_highlights.h"
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 #include "render/kernels/kernel.h"
 #include "render/pilots/edges/highlight_pilot.h"
 
@@ -42,14 +42,14 @@ struct EdgeKernels {
 // rays, not in time: the result is the same for any number of threads and any instruction set.
 //
 // Highlights of lamps in mirrors and glass are edges, too, but hardly any sample of one per pixel meets them. Samples of the emission
-// follow all chains of delta lobes (delta_chains.h), which also tell the variance of paths, that select one. Pixels near those that
-// highlight_pilot.h has sighted, at most one pixel in 64 and the nearest to a lamp first, are measured: by 32 samples of the emission each,
-// and by 128 the 512 nearest and those at which one of the 32 met light like that of a sighting.
-// A pixel beside others that met a highlight counts as if one more sample had. In the other pixels of a cell of sightings, these estimate
-// both variances. highlight_samples.h chooses how many samples of the emission each takes. The coarse image meets hardly any highlight, so
-// the noise of the image is here the sum of that of its light other than emission, that of the measured pixels, and that of highlights
-// sighted beyond those that the measured samples met. With the mean of the emission, e, the gain of M samples of variance V_c each over the
-// V of a path is
+// follow all chains of delta lobes (delta_chains.h), which also tell the variance of paths, that select one. Where highlight_location.h
+// finds the places of highlights, they aim at these. Pixels with such places, and those near sightings of highlight_pilot.h without, are
+// measured, at most one pixel in 64 and the nearest to a lamp first: by 32 samples of the emission each, and where these do not aim by 128
+// in the 256 nearest and those at which one of the 32 met light like that of a sighting. A pixel beside others that met a highlight counts
+// as if one more sample had. In the other pixels of a cell of sightings, these estimate both variances. highlight_samples.h chooses how
+// many samples of the emission each takes. The coarse image meets hardly any highlight, so the noise of the image is here the sum of that
+// of its light other than emission, that of the measured pixels, and that of highlights sighted beyond those that the measured samples met.
+// With the mean of the emission, e, the gain of M samples of variance V_c each over the V of a path is
 //
 //     gain = V - V_c / M - 2 E[e] R.
 //

@@ -1,7 +1,7 @@
 #include "render/pilots/edges/highlight_pilot.h"
 
 #include "core/math.h"
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,13 +74,13 @@ bool HighlightPilot::trace(size_t count, int longest, const SampleAt& sample_at,
         if (!scratch.chains) scratch.chains = std::make_unique<ChainColumns>();
         ChainColumns& chains = *scratch.chains;
         const size_t first = size_t(task) * samples_per_task;
-        chains.sights = true;
+        chains.task = ChainTask::sight;
         chains.samples.clear();
         chains.sightings.clear();
         for (size_t k = first; k < std::min(first + samples_per_task, count); ++k) chains.samples.push_back(sample_at(k));
         chains.turned.resize(chains.samples.size());
         kernel_.trace_chains(context, {}, scratch);
-        chains.sights = false;
+        chains.task = ChainTask::emission;
         take(first, chains);
     });
 }
@@ -127,7 +127,9 @@ std::optional<Sightings> HighlightPilot::find() {
                                                      luminance(c.light) / share,
                                                      {c.rate * share * of_image, c.light * (c.rate * of_image)},
                                                      share,
-                                                     k});
+                                                     k,
+                                                     from,
+                                                     c});
         }
     };
     for (const auto& s : scratch_) s->camera_rays = s->bounce_rays = 0;
@@ -146,6 +148,14 @@ std::optional<Sightings> HighlightPilot::find() {
 std::optional<Sightings> find_small_highlights(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted) {
     return HighlightPilot(context, kernel, workers, scratch, wanted).find();
+}
+
+std::vector<Sighting> small_highlights(const Sightings& sightings, double most, double pixels) {
+    SmallHighlights sighted = highlights_of(sightings);
+    std::vector<Sighting> nearest = sightings.all;
+    std::erase_if(nearest, [&](const Sighting& s) { return sighted.of(s.luminance).rate * pixels > most; });
+    std::ranges::stable_sort(nearest, {}, &Sighting::apart);
+    return nearest;
 }
 
 SmallHighlights highlights_of(const Sightings& sightings) {

@@ -23,6 +23,8 @@ struct Sighting {
     SmallHighlights::Band band;
     double share;
     size_t cell; // of Sightings::cells
+    ChainStart sample;
+    ChainSighting chain;
 };
 struct Sightings {
     std::vector<Sighting> all;
@@ -41,6 +43,10 @@ struct Sightings {
 // needs. `scratch`: one per worker, allocated if needed. Empty if `wanted` returned false.
 std::optional<Sightings> find_small_highlights(const KernelContext& context, const Kernel& kernel, const Workers& workers,
                                                std::vector<std::unique_ptr<TileScratch>>& scratch, const std::function<bool()>& wanted);
+
+// Those of light that camera samples meet in at most `most` pixels, nearest lamps first. Light that is seen in more has no small
+// highlights: an environment in glass. `pixels`: of the image.
+std::vector<Sighting> small_highlights(const Sightings& sightings, double most, double pixels);
 
 // All of them, as paths meet them.
 SmallHighlights highlights_of(const Sightings& sightings);

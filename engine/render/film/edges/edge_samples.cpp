@@ -1,4 +1,4 @@
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 
 #include <algorithm>
 #include <limits>
@@ -139,6 +139,8 @@ void refine_emission(KernelContext context, const Kernel& kernel, const EdgePixe
     fit_planes(tile, scratch.own);
     fit_planes(tile, scratch.more);
     if (tile.bounces) record_all_bounces(tile, job.paths());
+    if (!scratch.more.chains) scratch.more.chains = std::make_unique<ChainColumns>();
+    scratch.more.chains->places = pixels.places().empty() ? nullptr : &pixels.places();
     for (int y = job.y; y < job.y + job.height; ++y)
         for (int x = job.x; x < job.x + job.width; ++x) {
             const int begin = x, each = pixels.samples(x, y), longest = each ? std::max(1, most_chains / (job.samples * each)) : 0;

@@ -1,5 +1,5 @@
 // Smooth edges: the same mean with less noise at edges of visible emitters, however the image is rendered; all planes fit.
-#include "render/film/edge_samples.h"
+#include "render/film/edges/edge_samples.h"
 #include "render/film/film_state.h"
 #include "tests/render/rendered_image.h"
 #include "tests/render/scenes.h"

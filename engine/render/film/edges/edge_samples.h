@@ -1,7 +1,7 @@
 // More samples of the emission that the camera sees, directly or by delta lobes alone, in pixels at edges of emitters and with highlights.
 #pragma once
 
-#include "render/film/edge_pixels.h"
+#include "render/film/edges/edge_pixels.h"
 #include "render/kernels/kernel.h"
 
 #include <memory>
@@ -20,8 +20,9 @@ struct EdgeScratch {
 //
 // e0 is the emission that the sample's own path has found, so the mean stays the same: a render of emission alone (`emission_only`), of at
 // most `pixels.longest_chain()` scatterings, with the seed and the index of the sample. The others follow all delta lobes
-// (integrator/delta_chains.h). They have a seed of their own, and those of all samples of a half of the film are one sequence of the
-// sampler; so the halves stay independent, and a sample is the same in any range in which it is rendered.
+// (integrator/delta_chains.h), and aim at the places of highlights (highlight_places.h). They have a seed of their own, and those of all
+// samples of a half of the film are one sequence of the sampler; so the halves stay independent, and a sample is the same in any range in
+// which it is rendered.
 //
 // Its rays are not counted: the number of camera rays is that of paths.
 //

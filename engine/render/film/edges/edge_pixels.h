@@ -2,9 +2,12 @@
 // lamps (edge_pilot.h).
 #pragma once
 
+#include "render/film/edges/highlight_places.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace blush {
@@ -13,7 +16,7 @@ namespace blush {
 // pixel; with a bright one.
 constexpr int edge_samples = 16, faint_highlight_samples = 1, highlight_samples = 64, bright_highlight_samples = 512;
 // Delta lobes between camera and lamp, for highlights.
-constexpr int longest_highlight_chain = 8;
+constexpr int longest_highlight_chain = 16;
 
 // A number for each pixel; empty without pixels.
 class EdgePixels {
@@ -50,6 +53,9 @@ public:
     // With so many samples.
     int64_t count(int samples) const { return std::ranges::count(samples_, uint16_t(samples)); }
     bool empty() const { return count_ == 0; }
+    // Where the emission samples of these pixels aim.
+    const HighlightPlaces& places() const { return places_; }
+    void aim_at(HighlightPlaces places) { places_ = std::move(places); }
     int longest_chain() const { return longest_chain_; }
     bool operator==(const EdgePixels&) const = default;
 
@@ -59,6 +65,7 @@ private:
     int width_ = 0, longest_chain_ = 0;
     int64_t count_ = 0; // of pixels with any
     std::vector<uint16_t> samples_;
+    HighlightPlaces places_;
 };
 
 } // namespace blush
