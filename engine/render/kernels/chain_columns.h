@@ -28,7 +28,6 @@ struct ChainLobeCodes {
     static constexpr int bits_per_lobe = 2;
     uint32_t codes = 0;
     int32_t count = 0;
-    bool operator==(const ChainLobeCodes&) const = default;
 };
 // A lamp that a chain nearly met. `apart`: by 1 - the cosine of the angle between the chain and the lamp.
 struct ChainSighting {
@@ -66,7 +65,7 @@ struct ChainColumns {
     // By slot: the second moment of a path sample, which follows one lobe at each surface, of the luminance that the chains have met.
     Column<double> path_squares;
     Column<float> film_x, film_y; // by slot: position on the film, pixels, where a sample has one other than its path's
-    Column<float> weight;         // by slot: of the sample, over that of a path
+    Column<float> weight;         // by slot: of the sample, over that of a path; -1: it keeps the position of its path
     ChainTask task = ChainTask::emission;
     // Emission: samples of pixels with places aim at them; null: none.
     const HighlightPlaces* places = nullptr;

@@ -93,6 +93,7 @@ std::span<const HighlightPlaces::Near> HighlightPlaces::near(int x, int y) const
 HighlightPlaces::Sample HighlightPlaces::sample(int x, int y, double u, double v, const FilterTable& filter) const {
     const std::span<const Near> all = near(x, y);
     const double centre_x = x + 0.5, centre_y = y + 0.5;
+    if (all.empty()) return {centre_x, centre_y, -1};
     Sample s{centre_x, centre_y, 0};
     if (u < aimed_share) {
         u /= aimed_share;
@@ -115,12 +116,8 @@ HighlightPlaces::Sample HighlightPlaces::sample(int x, int y, double u, double v
 
 void aim_samples(const HighlightPlaces& places, const FilterTable& filter, int count, const AimedColumns& samples) {
     for (int k = 0; k < count; ++k) {
-        const int x = int(samples.pixel_x[k]), y = int(samples.pixel_y[k]);
-        if (!places.aims(x, y)) {
-            samples.weight[k] = -1;
-            continue;
-        }
-        const HighlightPlaces::Sample s = places.sample(x, y, double(samples.x[k]), double(samples.y[k]), filter);
+        const HighlightPlaces::Sample s =
+            places.sample(int(samples.pixel_x[k]), int(samples.pixel_y[k]), double(samples.x[k]), double(samples.y[k]), filter);
         samples.x[k] = float(s.x);
         samples.y[k] = float(s.y);
         samples.weight[k] = float(s.weight);

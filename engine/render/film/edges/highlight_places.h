@@ -43,9 +43,9 @@ public:
 
     struct Sample {
         double x, y;   // on the film
-        double weight; // f / q
+        double weight; // f / q; -1: the pixel has no place, and the sample no position
     };
-    // A sample of a pixel that aims. u, v: uniform in [0, 1).
+    // A sample of a pixel. u, v: uniform in [0, 1).
     Sample sample(int x, int y, double u, double v, const FilterTable& filter) const;
 
     bool operator==(const HighlightPlaces&) const = default;

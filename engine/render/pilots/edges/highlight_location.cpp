@@ -1,6 +1,8 @@
 #include "render/pilots/edges/highlight_location.h"
 
 #include "core/math.h"
+#include "render/film/edges/edge_pixels.h"
+#include "scene/affine.h"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +24,7 @@ constexpr double nearly_met = 1.5;                                   // of a lam
 constexpr double margin = 1.25, thinnest = 1.0 / 512, largest = 0.5; // of half axes; pixels; square pixels
 constexpr double longest_piece = 0.75;                               // half axis of a place, pixels
 constexpr int most_pieces = 16;                                      // of an axis
+static_assert(longest_highlight_chain * ChainLobeCodes::bits_per_lobe <= 32);
 
 struct Point {
     double x, y;
@@ -33,8 +36,6 @@ double length(const Point& a) { return std::hypot(a.x, a.y); }
 double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
 // p with p.x a + p.y b = v.
 Point solve(const Point& a, const Point& b, const Point& v) { return Point{cross(v, b), cross(a, v)} * (1 / cross(a, b)); }
-
-Vec3d wide(const Vec3& v) { return {double(v.x), double(v.y), double(v.z)}; }
 
 // A parallelogram that contains a lamp, or a ball, as seen from far away.
 struct Lamp {
@@ -48,21 +49,21 @@ Lamp lamp_of(const SceneTables& scene, const ChainSighting& seen) {
     switch (LightKind(light.kind)) {
     case LightKind::triangle: {
         // Its longest side is a diagonal of the parallelogram: of half of a rectangle this is the rectangle.
-        const std::array corners{Vec3d{0, 0, 0}, wide(light.edge1), wide(light.edge2)};
+        const std::array corners{Vec3d{0, 0, 0}, to_double(light.edge1), to_double(light.edge2)};
         const auto side = [&](size_t k) { return corners[(k + 2) % 3] - corners[(k + 1) % 3]; }; // opposite of a corner
         size_t at = 0;
         for (const size_t k : {1u, 2u})
             if (length(side(k)) > length(side(at))) at = k;
         const Vec3d a = (corners[(at + 1) % 3] - corners[at]) * 0.5, b = (corners[(at + 2) % 3] - corners[at]) * 0.5;
-        return {false, false, wide(light.position) + corners[at] + a + b, a, b, std::max(length(a), length(b))};
+        return {false, false, to_double(light.position) + corners[at] + a + b, a, b, std::max(length(a), length(b))};
     }
     case LightKind::sun: {
         const double cosine = 1 - double(light.cone_height);
-        return {true, true, wide(light.position), {}, {}, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine};
+        return {true, true, to_double(light.position), {}, {}, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine};
     }
     case LightKind::environment:
-        return {true, true, wide(seen.target), {}, {}, std::sqrt(1 / (std::numbers::pi * double(seen.target_density)))};
-    default: return {false, true, wide(light.position), {}, {}, double(light.radius)};
+        return {true, true, to_double(seen.target), {}, {}, std::sqrt(1 / (std::numbers::pi * double(seen.target_density)))};
+    default: return {false, true, to_double(light.position), {}, {}, double(light.radius)};
     }
 }
 
@@ -71,7 +72,7 @@ struct Plane {
     Vec3d forward, s, t, origin;
     bool infinite;
 
-    Plane(const Lamp& lamp, const FollowedEnd& first) : forward(wide(first.direction)), origin(lamp.centre), infinite(lamp.infinite) {
+    Plane(const Lamp& lamp, const FollowedEnd& first) : forward(to_double(first.direction)), origin(lamp.centre), infinite(lamp.infinite) {
         s = normalize(std::abs(forward.x) > 0.5 ? cross(forward, Vec3d{0, 1, 0}) : cross(forward, Vec3d{1, 0, 0}));
         t = cross(forward, s);
         if (infinite) origin = origin * (1 / dot(origin, forward));
@@ -79,11 +80,11 @@ struct Plane {
     Point in_plane(const Vec3d& v) const { return {dot(v, s), dot(v, t)}; }
     // Relative to the middle of the lamp.
     Point passed(const FollowedEnd& end) const {
-        const Vec3d o = wide(end.origin), d = wide(end.direction);
+        const Vec3d o = to_double(end.origin), d = to_double(end.direction);
         if (infinite) return in_plane(d * (1 / dot(d, forward)) - origin);
         return in_plane(o + d * (dot(origin - o, forward) / dot(d, forward)) - origin);
     }
-    bool is_ahead(const FollowedEnd& first) const { return dot(infinite ? origin : origin - wide(first.origin), forward) > 0; }
+    bool is_ahead(const FollowedEnd& first) const { return dot(infinite ? origin : origin - to_double(first.origin), forward) > 0; }
 };
 
 struct Walk {
