@@ -71,6 +71,7 @@ template <class F> struct LightPathVertex : ShadedHit<F> {
     F cosine;                                 // between wo and the geometric normal, > 0
     F scatter_share = F(1.f);                 // share_beside_straight()
     F hit_ratio = F(0.f), nee_ratio = F(0.f); // nee_ratio: at the first vertex that of NEE there, so without the factor of the vertex
+    Mask<F> nee_alone = Mask<F>(false);       // NEE alone finds what this first vertex scatters by other than delta lobes
 };
 // Where the path meets a surface, in the lanes of `met`. `seen`: the vertex is connected to the camera.
 template <Features S, class F>
@@ -203,7 +204,7 @@ template <Features S, class F>
 
     const Mask<F> same_side = (s.wi.z > F(0.f)) == outward;
     Mask<F> continues = v.scatters && s.valid && same_side && has_light(beta) && is_finite(F(beta.x + beta.y + beta.z)) && shared;
-    if (bounce == 0 && context.scene->emission.alone) continues = continues && s.delta; // else NEE finds the light
+    if (bounce == 0) continues = continues && (s.delta || !v.nee_alone);
     Int<F> chain = Int<F>(0);
     if (samples_manifolds<S>(*context.scene)) {
         const Mask<F> crosses = outward != (dot(v.side.wo, v.shading.ng) > F(0.f)),
@@ -248,9 +249,13 @@ template <Features S, class F> [[gnu::flatten]] void shade_light_paths(const Ker
         LightPathVertex<F> v = light_vertex_at<S, F>(scene, settings, path, hit, met, bounce > 0);
         if (bounce == 0) {
             v.scatters = v.scatters && !is_lambertian<S, F>(v.bsdf);
+            v.nee_alone = Mask<F>(scene.emission.alone);
             if constexpr (S.has(Feature::links))
-                if (scene.links.lit_sets)
-                    v.scatters = v.scatters && is_lit<F>(scene.links, emitters<F>(columns, k, met), v.surface.part, met);
+                if (scene.links.lit_sets) {
+                    const Int<F> light = emitters<F>(columns, k, met);
+                    v.scatters = v.scatters && is_lit<F>(scene.links, light, v.surface.part, met);
+                    v.nee_alone = v.nee_alone || has_own_shadows<F>(scene.links, light, met);
+                }
             if (!any(v.scatters)) continue;
             alignas(64) float densities[width<F>]{}, hits[width<F>]{};
             for_each_lane(bits(v.scatters), [&](int i) {

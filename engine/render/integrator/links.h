@@ -25,7 +25,8 @@ template <class F> Mask<F> is_lit(const LinkTables& links, const Int<F>& light, 
 template <class F> UInt<F> shadow_mask(const LinkTables& links, const Int<F>& light) { return gather(links.shadow_masks, light); }
 
 // True if shadow linking applies to the light. BSDF-sampled rays hit all objects, so they must not count emission of such a
-// light: NEE gets the full weight, as for delta lights. Behind a delta lobe, only the ray can find the light, so it is counted.
+// light: NEE gets the full weight, as for delta lights. Behind a delta lobe, only the ray can find the light, so it is counted;
+// and so light paths leave their first surface by delta lobes alone.
 template <class F> Mask<F> has_own_shadows(const LinkTables& links, const Int<F>& light, const Mask<F>& active) {
     const Mask<F> queried = active && as_mask(light >= 0);
     return queried && as_mask(shadow_mask<F>(links, select(queried, light, Int<F>(0))) != other_ray_mask);

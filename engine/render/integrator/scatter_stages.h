@@ -276,7 +276,9 @@ template <Features S, class F>
                                                   const MaterialPoint<F>& material, const Vec<F>& wo, const F& ratio, int bounce,
                                                   Step<F>& out) {
     if (bounce == 0) return;
-    const Mask<F> shared = out.connects && !p.lambertian && ratio > F(0.f);
+    Mask<F> shared = out.connects && !p.lambertian && ratio > F(0.f);
+    if constexpr (S.has(Feature::links))
+        if (scene.links.lit_sets) shared = shared && !has_own_shadows<F>(scene.links, out.sampled.light, shared);
     if (!any(shared)) return;
     const Vec<F>& wi = out.shadow.direction;
     const LightPoint<F>& light = out.sampled;

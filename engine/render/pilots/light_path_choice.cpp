@@ -3,24 +3,15 @@
 #include "render/compile/render_scene.h"
 #include "render/pilots/caustic_limits.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
 namespace blush {
 namespace {
 
-// Light paths meet all objects, as paths of the camera do; the shadow rays of such a light only some.
-bool has_caster_sets(const SceneTables& tables) {
-    if (!tables.links.lit_sets) return false;
-    const uint32_t* masks = tables.links.shadow_masks;
-    return std::any_of(masks, masks + tables.lights.count, [](uint32_t mask) { return mask != other_ray_mask; });
-}
-
 const char* why_no_light_paths(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
     if (const char* why = why_excluded(settings, CausticStrategy::light_paths)) return why;
     if (const char* why = why_no_caustics(settings, scene, film)) return why;
-    if (has_caster_sets(scene.tables())) return "a light has shadow casters of its own";
     // Splats are not samples, so they cannot be clamped as such.
     return settings.clamp.limit > 0 ? "samples are clamped" : nullptr;
 }

@@ -7,7 +7,7 @@
 #include "render/film/film_state.h"
 #include "render/integrator/kernel_settings.h"
 #include "render/integrator/light_path_weights.h"
-#include "tests/render/integrator/caustic_images.h"
+#include "tests/render/integrator/light_path_scenes.h"
 #include "tests/support/statistics.h"
 
 #include <algorithm>
@@ -23,104 +23,7 @@ namespace blush::test::TEST_FILE {
 namespace {
 
 using namespace statistics;
-
-// Casters of caustics over a floor: a metal and a glass ball.
-Scene balls(float roughness) {
-    Scene scene;
-    place(scene, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
-    place(scene, sphere(false), metal(roughness), at({-0.7f, 0.5f, 0}, 0.5f));
-    place(scene, sphere(false), glass(roughness, 1.5f), at({0.7f, 0.5f, 0.2f}, 0.5f));
-    scene.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
-    return scene;
-}
-// Both rough, so that each strategy finds their light.
-Scene rough_balls() { return balls(0.2f); }
-// One for each kind of emission.
-std::vector<std::pair<const char*, Scene>> lit_scenes() {
-    std::vector<std::pair<const char*, Scene>> scenes;
-    const auto add = [&](const char* name, const auto& light) { light(scenes.emplace_back(name, rough_balls()).second); };
-    add("one-sided triangles", [](Scene& s) { place(s, ceiling_quad(0.5f, 2.5f), emitter(10)); });
-    add("two-sided triangles", [](Scene& s) {
-        Material lamp = emitter(10);
-        lamp.double_sided = true;
-        place(s, ceiling_quad(0.5f, 2.5f), lamp);
-        place(s, ceiling_quad(2, 4), lambert(0.8f));
-    });
-    add("sphere", [](Scene& s) { place_light(s, caustic_light(Light::Kind::point, 20, 0.3f), at({0, 2, 0.5f})); });
-    add("point", [](Scene& s) { place_light(s, caustic_light(Light::Kind::point, 20), at({0.2f, 2, 0.5f})); });
-    add("parallel sun", [](Scene& s) { place_light(s, caustic_light(Light::Kind::sun, 3), aimed({0, 5, 0}, {0.3f, -1, 0.2f})); });
-    add("point beside a sphere", [](Scene& s) {
-        place_light(s, caustic_light(Light::Kind::point, 10), at({-0.5f, 2, 0.5f}));
-        place_light(s, caustic_light(Light::Kind::point, 10, 0.2f), at({0.8f, 2, 0.5f}));
-    });
-    add("sun", [](Scene& s) {
-        Light sun = caustic_light(Light::Kind::sun, 3);
-        sun.angle_radians = 0.3f;
-        place_light(s, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
-    });
-    add("rough plastic", [](Scene& s) {
-        place(s, floor_quad(1), plastic(0.4f), at({0, 0.01f, 0.8f}));
-        place(s, ceiling_quad(0.5f, 2.5f), emitter(10));
-    });
-    scenes.emplace_back("dispersion", Scene{});
-    Scene& prism = scenes.back().second;
-    place(prism, floor_quad(2), lambert({0.7f, 0.6f, 0.5f}));
-    Material flint = glass(0.2f, 1.5f);
-    flint.dispersion = 4;
-    place(prism, sphere(false), flint, at({0, 0.5f, 0.2f}, 0.5f));
-    place(prism, ceiling_quad(0.5f, 2.5f), emitter(10));
-    prism.view = looking({0, 2.5f, 4}, {0, 0.3f, 0}, 0.6f);
-    return scenes;
-}
-
-// What lets pass a part of the light, before, between and behind the balls: panes, of which one glows and one is half diffuse, blended
-// surfaces, and panes that are blended.
-Scene with_panes(Scene scene) {
-    const Material pane = window_glass({0.9f, 0.6f, 0.8f});
-    Material glowing = pane, half = pane;
-    glowing.emissive = {1, 2, 3};
-    glowing.double_sided = true;
-    half.transmission = 0.5f;
-    place(scene, floor_quad(0.8f, 1.6f), pane, at({0.5f, 0, 0}));
-    place(scene, floor_quad(0.4f, 1.2f), glowing, at({-0.6f, 0, 0.3f}));
-    place(scene, quad({-0.5f, 0.1f, 1}, {0.9f, 0.1f, 1}, {0.9f, 0.9f, 1}, {-0.5f, 0.9f, 1}), half);
-    return scene;
-}
-Scene with_leaves(Scene scene, bool of_glass) {
-    Material leaf = of_glass ? window_glass() : lambert({0.2f, 0.6f, 0.3f});
-    leaf.alpha = Material::Alpha::blend;
-    leaf.opacity = 0.6f;
-    place(scene, floor_quad(0.7f, 1.5f), leaf, at({0.4f, 0, 0}));
-    place(scene, floor_quad(0.4f, 1.1f), leaf, at({-0.6f, 0, 0.3f}));
-    place(scene, quad({-0.2f, 0.1f, 1.1f}, {1.2f, 0.1f, 1.1f}, {1.2f, 0.9f, 1.1f}, {-0.2f, 0.9f, 1.1f}), leaf);
-    return scene;
-}
-// One light for a third ball alone, one for all but this ball, and one for all.
-Scene with_links() {
-    Scene scene = rough_balls();
-    const Id<Node> ball = place(scene, sphere(false), metal(0.2f), at({0, 0.4f, 0.9f}, 0.3f));
-    for (const bool all_but : {false, true}) {
-        Light light = caustic_light(Light::Kind::point, 20, 0.3f);
-        light.color = all_but ? Vec3{1, 0.5f, 0.2f} : Vec3{0.2f, 0.5f, 1};
-        light.lit_objects = {all_but, {ball}};
-        place_light(scene, light, at({all_but ? 0.6f : -0.6f, 2, 0.5f}));
-    }
-    place_light(scene, caustic_light(Light::Kind::point, 5, 0.3f), at({0, 2.5f, 0}));
-    return scene;
-}
-std::vector<std::pair<const char*, Scene>> crossed_scenes() {
-    const auto lit = lit_scenes();
-    const auto scene_of = [&](std::string_view name) {
-        return std::ranges::find(lit, name, [](const auto& scene) { return std::string_view(scene.first); })->second;
-    };
-    const Scene lamp = scene_of("one-sided triangles"), sun = scene_of("sun");
-    return {{"panes", with_panes(lamp)},
-            {"panes under a sun", with_panes(sun)},
-            {"blended surfaces", with_leaves(lamp, false)},
-            {"blended surfaces under a sun", with_leaves(sun, false)},
-            {"panes and blended ones", with_leaves(with_panes(lamp), true)},
-            {"linked lights", with_links()}};
-}
+using namespace light_path_scenes;
 
 struct Compiled {
     RenderScene scene;
@@ -309,20 +212,21 @@ std::vector<Measured> blocks_of(const Scene& scene, const RenderSettings& settin
     return caustic_blocks(scene, settings, {.light_path_share = share}, "light paths", share > 0, images, first_seed);
 }
 
-void agree_with_the_other_strategies(const std::vector<std::pair<const char*, Scene>>& scenes) {
+void agree_with_the_other_strategies(const std::vector<std::pair<const char*, Scene>>& scenes, int images = 20) {
     const double alpha = sidak(significance, int64_t(2 * scenes.size()));
     for (const auto& [name, scene] : scenes) {
         SCOPED_TRACE(name);
         RenderSettings settings = settings_for(36, 36, 16);
-        const auto without = blocks_of(scene, settings, 0, 20, 1);
+        const auto without = blocks_of(scene, settings, 0, images, 1);
         settings.spp = 4;
-        EXPECT_TRUE(same_means(blocks_of(scene, settings, 2, 20, 1000), without, alpha));
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, 2, images, 1000), without, alpha));
         settings.spp = 16;
-        EXPECT_TRUE(same_means(blocks_of(scene, settings, 0.125f, 20, 2000), without, alpha));
+        EXPECT_TRUE(same_means(blocks_of(scene, settings, 0.125f, images, 2000), without, alpha));
     }
 }
 TEST(LightPaths, AgreeWithTheOtherStrategies) { agree_with_the_other_strategies(lit_scenes()); }
 TEST(LightPaths, AgreeThroughPanesAndBlendedSurfacesAndForLinkedLights) { agree_with_the_other_strategies(crossed_scenes()); }
+TEST(LightPaths, AgreeForLightsWithOwnShadowCasters) { agree_with_the_other_strategies({{"own shadow casters", with_own_shadows()}}, 100); }
 
 // Not even if the pilot has seen none of them: here the ball hides its caustic from the camera.
 TEST(LightPaths, AreAlwaysUsedForLightsWithoutSize) {
@@ -386,15 +290,20 @@ TEST(LightPaths, OfLightsWithoutSizeLeaveTheSamplesOfTheCameraAsTheyAre) {
         EXPECT_TRUE(same_pixels(rendered(CausticStrategy::light_paths, counts), with));
 }
 
-TEST(LightPaths, AreLeftOutWhereALightHasItsOwnShadowCasters) {
-    Scene scene = rough_balls();
-    Light light = caustic_light(Light::Kind::point, 20, 0.3f);
-    light.shadow_casters = {true, {place(scene, sphere(false), metal(0.2f), at({0, 0.4f, 0.9f}, 0.3f))}};
-    place_light(scene, light, at({0, 2, 0.5f}));
-    Renderer renderer({.caustics = {.light_path_share = 1.f}});
-    renderer.update(scene, settings_for(8, 8, 2));
-    renderer.render(0, 2);
-    EXPECT_EQ(feature_line(renderer, "light paths").why, "a light has shadow casters of its own");
+// Only delta lobes lead their light to casters: NEE, whose shadow rays meet other objects, finds the rest. Under the floor, where a ball
+// casts no shadow, leaving it out changes nothing.
+TEST(LightPaths, OfLightsWithOwnShadowCastersAreThoseOfOthersByDeltaLobes) {
+    for (const float radius : {0.f, 0.3f}) {
+        const auto blocks = [&](bool own_casters, uint32_t first_seed) {
+            Scene scene = balls(0);
+            Light light = caustic_light(Light::Kind::point, 20, radius);
+            const Id<Node> unseen = place(scene, sphere(false), lambert(0.5f), at({0, -1, 0}, 0.3f));
+            if (own_casters) light.shadow_casters = {true, {unseen}};
+            place_light(scene, light, at({0, 2, 0.5f}));
+            return blocks_of(scene, settings_for(36, 36, 16), 1, 20, first_seed);
+        };
+        EXPECT_TRUE(same_means(blocks(true, 1000), blocks(false, 1))) << radius;
+    }
 }
 
 TEST(LightPaths, AgreeForEveryCamera) {
