@@ -50,7 +50,7 @@ Vec3 replay_sample(KernelContext context, int x, int y, int64_t sample, int long
         const bool chains = samples_manifolds<s>(*context.scene);
         if (chains) {
             auto& hits = scratch.manifolds->hits;
-            take_chain_hits<s, float>(*context.scene, hits, vertex.path, vertex.hit, bounce, true, vertex.step);
+            take_chain_hits<s, float>(*context.scene, hits, vertex.path, vertex.hit, bounce, background, true, vertex.step);
             if (hits.size > 0) vertex.shared = {hits.emitted.x[0], hits.emitted.y[0], hits.emitted.z[0]};
             hits.size = 0; // shade_paths() takes them again
         }

@@ -190,8 +190,9 @@ template <Features S, class F> [[gnu::flatten]] int64_t shade_paths(const Kernel
         if constexpr (S.has(Feature::light_paths))
             if (samples_manifolds<S>(*context.scene)) {
                 ManifoldHitColumns& hits = scratch.manifolds->hits;
-                take_chain_hits<S, F>(*context.scene, hits, path, load_hit<F>(scratch.hits, k), bounce, active, step);
-                note_chain_starts<S, F>(context, hits, path, load_hit<F>(scratch.hits, k), step);
+                take_chain_hits<S, F>(*context.scene, hits, path, load_hit<F>(scratch.hits, k), bounce,
+                                      seen_background<F>(*context.scene, scratch, k, active), active, step);
+                note_chain_starts<S, F>(context, hits.starts, path, load_hit<F>(scratch.hits, k), step);
             }
         add_emission<S, F>(context, scratch, now.slot + k, k, path, bounce, active, step);
         if (any(step.non_finite)) add_light<F>(scratch, now.slot + k, step.next.beta, step.non_finite);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 namespace blush {
 
@@ -19,18 +20,29 @@ struct ReceiverHitColumns {
     Columns3 wo;                                  // to the vertex before
 };
 
-// Paths of the camera that find the same light by chance (render/integrator/manifold/manifold_hits.h).
-struct ManifoldHitColumns {
-    // By slot: the last rough vertex, the direction in which the path has left it, and light_ratio there.
+// Where chains of paths begin: a rough vertex, and the direction in which the path has left it.
+struct ChainStartColumns {
     Columns3 origin, ns, direction;
     ReceiverHitColumns at;
-    Column<float> start_ratio, start_arrival; // as ManifoldColumns::light_ratio and arrival
+    Column<float> ratio, arrival; // as ManifoldColumns::light_ratio and arrival
+};
+
+// Paths of the camera that find the same light by chance (render/integrator/manifold/manifold_hits.h).
+struct ManifoldHitColumns {
+    // By slot, and by hit: where a path meets a light, it may begin its next chain.
+    ChainStartColumns starts, start;
     // The lights that paths have met at this bounce: record, the chain between, point (at infinity: direction), and the path's light.
     int size = 0;
     Column<int32_t> slot, light, chain;
     Column<int32_t> wavelength; // as ManifoldColumns::wavelength
     Column<uint32_t> random;
     Columns3 target, emitted;
+};
+
+// What blended surfaces leave of the light of walks, which pass all of them.
+struct WalkTransmittance {
+    Column<float> end, share; // by ray of a round: how far it goes, and what is left there
+    Column<float> passed;     // by receiver: the product along the chain
 };
 
 // By receiver: one rough vertex of a path, with a point of a light.
@@ -62,6 +74,7 @@ struct ManifoldColumns {
     Column<int32_t> events;
     Column<int32_t> dispersed; // 1: it carries a single wavelength; only with Feature::dispersion, behind an event
     Columns3 position, ray, position_u, position_v, ray_u, ray_v, transmittance;
+    std::unique_ptr<WalkTransmittance> blended; // only in scenes with blended surfaces
 
     // The solution: direction, squared distance within which another is the same, light that it carries, trials to find it again.
     Columns3 root, found;

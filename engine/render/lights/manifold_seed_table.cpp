@@ -33,24 +33,15 @@ ReceiverGrid grid_of(const std::vector<Vec3>& positions) {
     return grid;
 }
 
-// A ray that meets two suns at once would end two chains (integrator/manifold/manifold_hits.h).
-bool overlaps_another_sun(const LightTables& lights, const LightRecord& sun) {
-    const auto chord = [](const LightRecord& r) { return std::sqrt(2 * r.cone_height); };
-    for (int i = 0; i < lights.sun_count; ++i) {
-        const LightRecord& other = lights.lights[lights.suns[i]];
-        if (&other != &sun && length(other.position - sun.position) <= chord(other) + chord(sun) + 1e-6f) return true;
-    }
-    return false;
-}
-
 // Lights whose points can be sampled evenly. Not those of surfaces that have specular events themselves: a chain
-// would not know where it ends.
+// would not know where it ends. Nor those of panes: paths that pass one straight keep all of its light.
 bool ends_chains(const SceneTables& scene, const LightRecord& light) {
     switch (LightKind(light.kind)) {
-    case LightKind::triangle: return !(scene.materials.materials[scene.parts[light.part].material].flags & material_chains);
+    case LightKind::triangle:
+        return !(scene.materials.materials[scene.parts[light.part].material].flags & (material_chains | material_pane));
     case LightKind::point:
-    case LightKind::sphere: return true;
-    case LightKind::sun: return has_zero_size(light) || !overlaps_another_sun(scene.lights, light);
+    case LightKind::sphere:
+    case LightKind::sun: return true;
     default: return false;
     }
 }

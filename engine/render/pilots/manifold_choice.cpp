@@ -11,9 +11,7 @@ namespace blush {
 namespace {
 
 const char* why_no_manifolds(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film) {
-    const char* why = why_excluded(settings, CausticStrategy::manifold);
-    if (why) return why;
-    if (scene.tables().blends) return "a surface is blended"; // chance hits do not know the transmittance of what they have passed
+    if (const char* why = why_excluded(settings, CausticStrategy::manifold)) return why;
     if (const char* limit = why_no_caustics(settings, scene, film)) return limit;
     return scene.tables().casters.count == 0 ? "no mirror or solid glass has light to focus" : nullptr;
 }
@@ -67,7 +65,7 @@ FeatureUse ManifoldChoice::vertex_report() const {
     if (!pays())
         use.why = "manifold sampling is not used";
     else if (pilot_->emission.empty())
-        use.why = "a pane transmits light straight through, or a solid has dispersion";
+        use.why = "a pane transmits light straight through, a surface is blended, or a solid has dispersion";
     else if (pilot_->usual_ratio == 0)
         use.why = "pilot: no light path has reached a diffuse surface by mirrors and smooth glass alone";
     else

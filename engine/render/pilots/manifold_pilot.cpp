@@ -136,8 +136,9 @@ std::optional<ManifoldPilot> measure_manifolds(KernelContext context, const Caus
     context.scene = &tables_without;
     SceneTables tables = tables_without;
     tables.manifolds = pilot.seeds.tables(casters);
-    // Light vertices are not connected through panes; their light paths do not have the wavelength of the camera's path.
-    if (!tables.panes && !disperses)
+    // Light vertices are not connected through panes and blended surfaces; their light paths do not have the wavelength of the camera's
+    // path.
+    if (!tables.panes && !tables.blends && !disperses)
         pilot.emission =
             LightPathEmission(tables, scene_sphere, [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
     context.settings.reuse = {};

@@ -8,6 +8,7 @@
 // 1 / (P + (1 - P) c). Of paths the share 1 - k counts at once; others run the same trials, and count if these end by c.
 #pragma once
 
+#include "render/integrator/blended_background.h"
 #include "render/integrator/manifold/manifold_receivers.h"
 #include "render/integrator/surface.h"
 
@@ -25,7 +26,7 @@ template <class F> HitShare<F> share_of_hits(const F& path_density, const F& den
 
 // Keeps where the chains of paths that go on from a rough vertex begin. `hit`: of path.ray.
 template <Features S, class F>
-void note_chain_starts(const KernelContext& context, ManifoldHitColumns& c, const Path<F>& path, const Hit<F>& hit, const Step<F>& step) {
+void note_chain_starts(const KernelContext& context, ChainStartColumns& c, const Path<F>& path, const Hit<F>& hit, const Step<F>& step) {
     const Mask<F> begins = step.continues && chain_begins<F>(step.next.chain);
     if (!any(begins)) return;
     const ReuseVertex<F>& v = step.reuse_vertex;
@@ -43,17 +44,28 @@ void note_chain_starts(const KernelContext& context, ManifoldHitColumns& c, cons
         keep(c.origin, step.next.ray.origin);
         keep(c.direction, step.next.ray.direction);
         keep(c.ns, v.ns);
-        c.start_ratio[slot] = lane(ratio, i);
-        c.start_arrival[slot] = lane(arrival, i);
+        c.ratio[slot] = lane(ratio, i);
+        c.arrival[slot] = lane(arrival, i);
         keep_receiver_hit<F>(c.at, slot, i, path, hit, footprint, v.lambertian);
     });
 }
 
-// Takes the light that manifold sampling finds, too, out of the step, and queues it.
+inline void copy_start(ChainStartColumns& to, int i, const ChainStartColumns& from, int k) {
+    copy3(to.origin, i, from.origin, k);
+    copy3(to.ns, i, from.ns, k);
+    copy3(to.direction, i, from.direction, k);
+    copy_receiver_hit(to.at, i, from.at, k);
+    to.ratio[i] = from.ratio[k], to.arrival[i] = from.arrival[k];
+}
+
+// Takes the light that manifold sampling finds, too, out of the step, and queues it: of a surface or a sun. Suns may cover each other, and
+// be seen past blended surfaces (blended_background.h): of several lights, one is chosen by chance.
 template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const SceneTables& scene, ManifoldHitColumns& c, const Path<F>& path,
-                                                                      const Hit<F>& hit, int bounce, const Mask<F>& active, Step<F>& step) {
+                                                                      const Hit<F>& hit, int bounce, const SeenBackground<F>& background,
+                                                                      const Mask<F>& active, Step<F>& step) {
     const Mask<F> chained = active && is_chain<F>(path.chain);
     if (!any(chained)) return;
+    const UInt<F> random = pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x3c6ef372u))));
     Int<F> light = Int<F>(-1);
     Vec<F> emitted = step.emitted, target = path.ray.origin + path.ray.direction * hit.t;
     const Mask<F> met = chained && as_mask(hit.geometry >= 0), sphere = met && as_mask(hit.instance == sphere_instance);
@@ -66,21 +78,28 @@ template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const Scen
         }
     const Mask<F> on_surface = found_by_manifolds<S, F>(scene, path, light, met);
     step.emitted = select<F>(on_surface, splat<F>(0.f), step.emitted);
-    Mask<F> found = on_surface;
+    F lights = select(on_surface && has_light(emitted), F(1.f), F(0.f)); // that the ray finds
     if constexpr (S.has(Feature::suns)) {
         for (int i = 0; i < scene.lights.sun_count; ++i) {
             const int32_t record = scene.lights.suns[i];
             const LightRecord& sun = scene.lights.lights[record];
-            const Mask<F> inside = chained && !met && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
-            const Mask<F> in_sun = found_by_manifolds<S, F>(scene, path, Int<F>(record), inside);
-            light = select(in_sun, Int<F>(record), light);
+            const Mask<F> inside =
+                chained && background.seen && in_sun_disk<F>(path.ray.direction, splat<F>(sun.position), F(sun.cone_height));
+            Mask<F> in_sun = found_by_manifolds<S, F>(scene, path, Int<F>(record), inside);
+            if (!any(in_sun)) continue;
             const F linked = if_linked<S, F>(scene, F(1.f), Int<F>(record), path, in_sun);
-            emitted = select<F>(in_sun, path.beta * splat<F>(sun.emission) * linked, emitted);
-            target = select<F>(in_sun, path.ray.direction, target);
-            found = found || in_sun;
+            const Vec<F> seen = path.beta * splat<F>(sun.emission) * (linked * background.share);
+            in_sun = in_sun && has_light(seen);
+            lights = select(in_sun, lights + 1.f, lights);
+            const F choice = unit_float<F>(pcg_hash(UInt<F>(random + uint32_t(i + 1))));
+            const Mask<F> chosen = in_sun && choice * lights < F(1.f);
+            light = select(chosen, Int<F>(record), light);
+            emitted = select<F>(chosen, seen, emitted);
+            target = select<F>(chosen, path.ray.direction, target);
         }
     }
-    found = found && has_light(emitted);
+    emitted = emitted * lights;
+    const Mask<F> found = lights > F(0.f);
     const unsigned lanes = bits(found);
     if (lanes == 0) return;
     const int k = c.size;
@@ -93,10 +112,11 @@ template <Features S, class F> [[gnu::noinline]] void take_chain_hits(const Scen
     compress(c.light + k, light, lanes);
     compress(c.chain + k, chain_events<F>(path.chain), lanes);
     if constexpr (S.has(Feature::dispersion)) compress(c.wavelength + k, wavelength_step<F>(Sampler<F>{path.key, path.index}), lanes);
-    compress(c.random + k, pcg_hash(UInt<F>(path.key ^ pcg_hash(UInt<F>(path.index + uint32_t(bounce) * 0x3c6ef372u)))), lanes);
+    compress(c.random + k, random, lanes);
     put_all(c.target, target);
     put_all(c.emitted, emitted);
     c.size += count(found);
+    for (int i = k; i < c.size; ++i) copy_start(c.start, i, c.starts, c.slot[i]);
 }
 
 // Queues the receivers of the hits.
@@ -110,7 +130,7 @@ template <Features S, class F> void add_hit_receivers(const SceneTables& scene, 
         const Mask<F> active = as_mask(iota<F>() + k < hits.size);
         const auto valid = [&](const Int<F>& i) { return select(active, i, Int<F>(0)); };
         const Int<F> slot = valid(load<Int<F>>(hits.slot + k)), light = valid(load<Int<F>>(hits.light + k));
-        const Vec<F> target = load_all(hits.target, k), origin = load3<F>(hits.origin, slot), ns = load3<F>(hits.ns, slot);
+        const Vec<F> target = load_all(hits.target, k), origin = load_all(hits.start.origin, k), ns = load_all(hits.start.ns, k);
         LightPoint<F> p = chain_light_point<S, F>(scene, light, F(0.5f), F(0.5f), active);
         if constexpr (S.has(Feature::sphere_lights)) {
             const Vec<F> center = gather_field3<F>(scene.lights.lights, &LightRecord::position, light);
@@ -121,14 +141,14 @@ template <Features S, class F> void add_hit_receivers(const SceneTables& scene, 
         const GroupSeeds<F> seeds = seeds_of_group<F>(t, region_at<F>(t, origin, ns, active), group, active);
         const F density = seeds.probability * p.density / to_float(gather_field(t.groups, &ManifoldGroup::lights, group));
         const int first = c.size;
-        for (int i = 0; i < width<F> && k + i < hits.size; ++i) copy_receiver_hit(c.at, first + i, hits.at, hits.slot[k + i]);
+        for (int i = 0; i < width<F> && k + i < hits.size; ++i) copy_receiver_hit(c.at, first + i, hits.start.at, k + i);
         Int<F> wavelength = Int<F>(0);
         if constexpr (S.has(Feature::dispersion)) wavelength = valid(load<Int<F>>(hits.wavelength + k));
         append_receivers<S, F>(scene, c,
                                {origin, ns, ns, splat<F>(0.f), p, slot, seeds, density, load<UInt<F>>(hits.random + k),
-                                gather(hits.start_ratio, slot), gather(hits.start_arrival, slot), wavelength, Mask<F>(true)},
+                                load<F>(hits.start.ratio + k), load<F>(hits.start.arrival + k), wavelength, Mask<F>(true)},
                                active);
-        const Vec<F> direction = load3<F>(hits.direction, slot), emitted = load_all(hits.emitted, k);
+        const Vec<F> direction = load_all(hits.start.direction, k), emitted = load_all(hits.emitted, k);
         const auto put_all = [&](Columns3& column, const Vec<F>& v) {
             store(column.x + first, v.x);
             store(column.y + first, v.y);

@@ -11,10 +11,12 @@
 //
 // Paths that meet such a light by chance share it (manifold_hits.h). What light paths sample, too, is left to them: paths whose first
 // vertex they can connect to the camera.
+//
+// Blended surfaces are no events: chains pass them, and their transmittance dims the light. They stop paths by chance, so what these find
+// is dimmed as well, in the mean. All densities leave it out.
 #pragma once
 
-#include "render/integrator/manifold/manifold_walk.h"
-#include "render/integrator/path_queues.h"
+#include "render/integrator/manifold/walk_rays.h"
 
 namespace blush::inline BLUSH_ISA {
 
@@ -134,14 +136,15 @@ template <class F> struct WalkRound {
     Int<F> part = Int<F>(-1); // of the event
 };
 
-// Solutions carry light if nothing is between the last surface and the light.
-template <class F> void take_arrivals(const ManifoldColumns& c, const Hit<F>& hit, Walk<F>& w, WalkRound<F>& round) {
+// Solutions carry light if nothing is between the last surface and the light, times `share` behind blended surfaces.
+template <class F> void take_arrivals(ManifoldColumns& c, const Hit<F>& hit, const F& share, Walk<F>& w, WalkRound<F>& round) {
     const Mask<F> arriving = round.active && as_mask(w.state == int32_t(arrives));
     if (!any(arriving)) return;
     const Mask<F> infinite = as_mask((gather(c.kind, w.index) & int32_t(receiver_infinite)) != 0);
     const F distance = dot(load3<F>(c.target, w.index) - w.ray.position, w.ray.direction);
     const Mask<F> beyond = !infinite && hit.t >= distance * (1.f - 1e-4f) - 4.f * gather(c.tolerance, w.index);
-    const Mask<F> lit = arriving && (beyond || as_mask(hit.geometry < 0));
+    const Mask<F> lit = arriving && share > F(0.f) && (beyond || as_mask(hit.geometry < 0));
+    if (c.blended) put3<F>(c.found, w.index, load3<F>(c.found, w.index) * share, bits(lit));
     w.trials = select(lit, Int<F>(1), w.trials);
     round.alive = round.alive && (!arriving || lit);
     round.begins = round.begins || lit;
@@ -176,7 +179,7 @@ void disperse_event(ManifoldColumns& c, const Walk<F>& w, const Int<F>& waveleng
 
 // The events at the hits of walks that trace their chain.
 template <Features S, class F>
-void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>& hit, Walk<F>& w, WalkRound<F>& round) {
+void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>& hit, const F& share, Walk<F>& w, WalkRound<F>& round) {
     const Mask<F> chained = round.active && !as_mask(w.state == int32_t(arrives));
     const Mask<F> explore = chained && as_mask(w.state == int32_t(explores));
     const Mask<F> met = chained && as_mask(hit.geometry >= 0) && !as_mask(hit.instance == sphere_instance);
@@ -198,6 +201,7 @@ void take_events(const KernelContext& context, ManifoldColumns& c, const Hit<F>&
         if constexpr (S.has(Feature::dispersion)) disperse_event<F>(c, w, wavelength, passed, event);
         round.part = event.part;
         pass_event<F>(behind, event, passed, explore, w);
+        if (c.blended) put<F>(c.blended->passed, w.index, gather(c.blended->passed.data, w.index) * share, bits(passed));
     }
     // The chain of an exploring walk ends before the first surface without an event.
     const Mask<F> explored = explore && !passed, empty = as_mask(w.events == 0);
@@ -279,7 +283,8 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     if constexpr (S.has(Feature::light_profiles))
         found = found * emission_profile<F>(*context.scene, gather(c.light, w.index), -w.ray.direction, solved);
     const Mask<F> short_enough = as_mask((w.events + bounce) < context.settings.max_bounces);
-    Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && short_enough;
+    const F passed = c.blended ? gather(c.blended->passed.data, w.index) : F(1.f);
+    Mask<F> carries = solved && dot(w.direction, load3<F>(c.ng, w.index)) > F(0.f) && has_light(found) && passed > F(0.f) && short_enough;
     if constexpr (S.has(Feature::links)) {
         const LinkTables& links = context.scene->links;
         if (links.lit_sets)
@@ -289,7 +294,7 @@ template <Features S, class F> void keep_solutions(const KernelContext& context,
     put3<F>(c.root, w.index, w.direction, lanes);
     const F beside = beside_light_vertices<S, F>(*context.scene, c, w, pdf, at.cosine, carries) *
                      beside_shared_light_paths<S, F>(*context.scene, c, w, at, pdf, carries);
-    put3<F>(c.found, w.index, found * (share.kept * beside), lanes);
+    put3<F>(c.found, w.index, found * (passed * share.kept * beside), lanes);
     put<F>(c.same, w.index, end.same, lanes);
     put<F>(c.coin, w.index, share.coin, lanes);
     put_int<F>(c.root_chain, w.index, w.chain, lanes);
@@ -355,18 +360,18 @@ void take_steps(const KernelContext& context, TileScratch& scratch, int bounce, 
     begin_chain<F>(c, w, steps);
 }
 
-// Advances walks by the hits of their rays. Returns the lanes that go on.
+// Advances walks by the hits of their rays; `share`: of their light that is left there. Returns the lanes that go on.
 template <Features S, class F> [[gnu::noinline, gnu::flatten]] Mask<F> advance_walks(const KernelContext& context, TileScratch& scratch,
-                                                                                     const Int<F>& index, const Hit<F>& hit, int bounce,
-                                                                                     const Mask<F>& active) {
+                                                                                     const Int<F>& index, const Hit<F>& hit, const F& share,
+                                                                                     int bounce, const Mask<F>& active) {
     ManifoldColumns& c = *scratch.manifolds;
     Walk<F> w = load_walk<F>(c, index);
     const Mask<F> none = Mask<F>(false);
     WalkRound<F> round{active, active, none, none, none, none, none};
     const Mask<F> arrived = as_mask(w.state == int32_t(arrives));
-    take_arrivals<F>(c, hit, w, round);
+    take_arrivals<F>(c, hit, share, w, round);
     round.active = active && !arrived;
-    take_events<S, F>(context, c, hit, w, round);
+    take_events<S, F>(context, c, hit, share, w, round);
     take_steps<S, F>(context, scratch, bounce, w, round);
     const Mask<F> begins = (round.begins || round.missed) && round.alive;
     if (any(begins)) {
@@ -391,7 +396,7 @@ template <Features S, class F> void run_walks(const KernelContext& context, Tile
     ManifoldColumns& c = *scratch.manifolds;
     while (live > 0) {
         for (int k = 0; k < live; k += width<F>) {
-            const Int<F> index = select(as_mask(iota<F>() + k < live), load<Int<F>>(c.live + k), Int<F>(0));
+            const Int<F> index = live_walks<F>(c, k, live);
             const Vec<F> origin = load3<F>(c.position, index), direction = load3<F>(c.ray, index);
             store(rays.ox + k, origin.x);
             store(rays.oy + k, origin.y);
@@ -401,14 +406,13 @@ template <Features S, class F> void run_walks(const KernelContext& context, Tile
             store(rays.dz + k, direction.z);
         }
         scratch.bounce_rays += live;
-        HitColumns& h = scratch.hits;
-        trace_closest<F>(*context.accel, {rays.ox, rays.oy, rays.oz, rays.dx, rays.dy, rays.dz, nullptr, nullptr, other_ray_mask}, live,
-                         false, HitArrays{h.t, h.u, h.v, h.geometry, h.instance, h.triangle});
+        trace_walks<F>(context, c, rays, live, scratch.hits);
         int kept = 0;
         for (int k = 0; k < live; k += width<F>) {
             const Mask<F> active = as_mask(iota<F>() + k < live);
-            const Int<F> index = select(active, load<Int<F>>(c.live + k), Int<F>(0));
-            const Mask<F> alive = advance_walks<S, F>(context, scratch, index, load_hit<F>(h, k), bounce, active);
+            const Int<F> index = live_walks<F>(c, k, live);
+            const F share = c.blended ? load<F>(c.blended->share + k) : F(1.f);
+            const Mask<F> alive = advance_walks<S, F>(context, scratch, index, load_hit<F>(scratch.hits, k), share, bounce, active);
             compress(c.live + kept, index, bits(alive));
             kept += count(alive);
         }
@@ -420,6 +424,7 @@ template <Features S, class F> void run_walks(const KernelContext& context, Tile
 template <Features S, class F, class Begin>
 void run_receivers(const KernelContext& context, TileScratch& scratch, PathQueue& rays, int bounce, const Begin& begin) {
     ManifoldColumns& c = *scratch.manifolds;
+    if (context.scene->blends != bool(c.blended)) c.blended = context.scene->blends ? std::make_unique<WalkTransmittance>() : nullptr;
     for (int k = 0; k < c.size; k += width<F>) {
         const Mask<F> active = as_mask(iota<F>() + k < c.size);
         Walk<F> w = load_walk<F>(c, select(active, Int<F>(iota<F>() + k), Int<F>(0)));
@@ -433,22 +438,19 @@ void run_receivers(const KernelContext& context, TileScratch& scratch, PathQueue
 }
 // Queues the chain of a light vertex as that of a hit.
 inline void queue_light_vertex(ManifoldHitColumns& hits, const LightVertexColumns& v, int slot) {
-    const auto copy = [](Columns3& to, int i, const Columns3& from, int k) {
-        to.x[i] = from.x[k], to.y[i] = from.y[k], to.z[i] = from.z[k];
-    };
     const int k = hits.size++;
     hits.slot[k] = slot;
     hits.light[k] = v.light[slot];
     hits.chain[k] = v.chain[slot];
     hits.wavelength[k] = v.wavelength[slot];
     hits.random[k] = 0;
-    copy(hits.target, k, v.target, slot);
-    copy(hits.emitted, k, v.reflected, slot);
-    copy(hits.origin, slot, v.origin, slot);
-    copy(hits.ns, slot, v.ns, slot);
-    copy(hits.direction, slot, v.wi, slot);
-    hits.start_ratio[slot] = hits.start_arrival[slot] = 0;
-    hits.at.geometry[slot] = -1; // its BSDF is not asked for
+    copy3(hits.target, k, v.target, slot);
+    copy3(hits.emitted, k, v.reflected, slot);
+    copy3(hits.start.origin, k, v.origin, slot);
+    copy3(hits.start.ns, k, v.ns, slot);
+    copy3(hits.start.direction, k, v.wi, slot);
+    hits.start.ratio[k] = hits.start.arrival[k] = 0;
+    hits.start.at.geometry[k] = -1; // its BSDF is not asked for
 }
 
 // Traces the chains of the queued hits again.

@@ -66,7 +66,7 @@ template <class F> void store_walk(ManifoldColumns& c, const Walk<F>& w, unsigne
 }
 
 // Begins the chain for a new direction.
-template <class F> void begin_chain(const ManifoldColumns& c, Walk<F>& w, const Mask<F>& lanes) {
+template <class F> void begin_chain(ManifoldColumns& c, Walk<F>& w, const Mask<F>& lanes) {
     const Basis<F> turns = basis_around(w.direction);
     const auto set = [&](Vec<F>& a, const Vec<F>& b) { a = select<F>(lanes, b, a); };
     set(w.ray.position, load3<F>(c.origin, w.index));
@@ -77,6 +77,7 @@ template <class F> void begin_chain(const ManifoldColumns& c, Walk<F>& w, const 
     set(w.ray.direction_v, turns.t);
     set(w.transmittance, splat<F>(1.f));
     w.events = select(lanes, Int<F>(0), w.events);
+    if (c.blended) put<F>(c.blended->passed, w.index, F(1.f), bits(lanes));
 }
 
 // A vector in a random direction: half of them into the hemisphere, half towards the casters.

@@ -31,10 +31,11 @@ template <class F> void keep_receiver_hit(ReceiverHitColumns& c, int i, int from
     c.wo.y[i] = -lane(path.ray.direction.y, from);
     c.wo.z[i] = -lane(path.ray.direction.z, from);
 }
+inline void copy3(Columns3& to, int i, const Columns3& from, int k) { to.x[i] = from.x[k], to.y[i] = from.y[k], to.z[i] = from.z[k]; }
 inline void copy_receiver_hit(ReceiverHitColumns& to, int i, const ReceiverHitColumns& from, int k) {
     to.geometry[i] = from.geometry[k], to.instance[i] = from.instance[k], to.triangle[i] = from.triangle[k];
     to.u[i] = from.u[k], to.v[i] = from.v[k], to.width[i] = from.width[k];
-    to.wo.x[i] = from.wo.x[k], to.wo.y[i] = from.wo.y[k], to.wo.z[i] = from.wo.z[k];
+    copy3(to.wo, i, from.wo, k);
 }
 
 // Sets the values of receivers that are not Lambertian, as scatter() and continue_ratios() have them.

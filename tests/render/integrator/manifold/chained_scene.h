@@ -29,7 +29,7 @@ public:
                                      [&](int32_t light) { return tables.manifolds.group_of_light[light] >= 0; });
         EXPECT_FALSE(emission.empty());
         tables.guides = {};
-        usual_ratio = measured_ratio();
+        if (!tables.blends) usual_ratio = measured_ratio(); // light vertices are not connected through blended surfaces
     }
     KernelContext context(const SceneTables& scene, uint32_t seed) const {
         return {&scene, &compiled_.accel(), kernel_settings(settings_, float(size), float(size)), seed};

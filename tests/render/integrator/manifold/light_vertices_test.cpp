@@ -1,5 +1,6 @@
 // Light vertices beside manifold sampling: images with them agree in the mean with images without, whatever the densities that the weights
 // are made of; a pilot decides about them; and every kernel has the same bits.
+#include "tests/render/integrator/light_path_scenes.h"
 #include "tests/render/integrator/manifold/chained_scene.h"
 #include "tests/render/integrator/manifold/lit_casters.h"
 
@@ -92,7 +93,9 @@ TEST(LightVertices, AreUsedWhereTheyPay) {
 }
 
 TEST(LightVertices, AreTheSameBitsFromEveryKernel) {
-    for (const auto& [name, scene] : chained_scenes()) {
+    auto scenes = chained_scenes();
+    for (const auto& [name, scene] : lit_scenes()) scenes.emplace_back(name, light_path_scenes::with_leaves(scene, false));
+    for (const auto& [name, scene] : scenes) {
         const ChainedScene chained(scene, settings_for(24, 24, 7));
         const auto radiance_of = [&](const SceneTables& tables, const Kernel& kernel) {
             const auto tile = chained.render(tables, kernel, 3);
@@ -102,7 +105,9 @@ TEST(LightVertices, AreTheSameBitsFromEveryKernel) {
             radiance.insert(radiance.end(), tile->g.data, tile->g.data + ChainedScene::paths);
             return radiance;
         };
-        for (const SceneTables& tables : {chained.tables, chained.with_vertices()}) {
+        std::vector<SceneTables> variants{chained.tables};
+        if (!chained.tables.blends) variants.push_back(chained.with_vertices());
+        for (const SceneTables& tables : variants) {
             SCOPED_TRACE(testing::Message() << name << (tables.light_vertices.empty() ? " without" : " with") << " light vertices");
             const std::vector<double> expected = radiance_of(tables, kernels_of("scalar").back());
             for (const std::string_view isa : runnable_isas())

@@ -1,7 +1,7 @@
 // Manifold sampling: its agreement in the mean with the other strategies and with closed forms, and that images do not depend on how they
 // are rendered. Every kernel: light_vertices_test.cpp.
 #include "render/film/film_state.h"
-#include "tests/render/integrator/caustic_images.h"
+#include "tests/render/integrator/light_path_scenes.h"
 #include "tests/render/integrator/manifold/lit_casters.h"
 
 #include <cmath>
@@ -52,6 +52,49 @@ TEST(ManifoldSampling, AgreesWithTheOtherStrategies) {
 }
 TEST(ManifoldSampling, AgreesForDispersiveSolids) { agrees_with_the_other_strategies(dispersive_solids(), 32); }
 TEST(ManifoldSampling, AgreesBehindPanes) { agrees_with_the_other_strategies(behind_panes(), 32); }
+// Paths that pass a glowing pane straight keep all of its light.
+TEST(ManifoldSampling, AgreesForPanesThatGlow) {
+    Scene scene = smooth_balls();
+    Light sun = caustic_light(Light::Kind::sun, 3);
+    sun.angle_radians = 0.6f;
+    place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    agrees_with_the_other_strategies(light_path_scenes::with_panes(scene), 24);
+}
+
+// Chains pass blended surfaces. Suns are seen past them: also several at once, of which one covers another.
+TEST(ManifoldSampling, AgreesBehindBlendedSurfaces) {
+    Scene lamp = smooth_balls(), suns = smooth_balls();
+    place(lamp, ceiling_quad(0.7f, 2.5f), emitter(10));
+    for (const float angle : {0.6f, 0.4f}) {
+        Light sun = caustic_light(Light::Kind::sun, angle == 0.6f ? 3.f : 2.f);
+        sun.angle_radians = angle;
+        sun.color = {1, angle, 0.3f};
+        place_light(suns, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    }
+    // A ray that passes a pane begins again behind it, so such rays meet suns by chance.
+    for (const auto& [name, scene] : {std::pair("lamp", light_path_scenes::with_leaves(lamp, false)),
+                                      {"suns", light_path_scenes::with_leaves(suns, false)},
+                                      {"panes", light_path_scenes::with_leaves(light_path_scenes::with_panes(suns), true)}}) {
+        SCOPED_TRACE(name);
+        agrees_with_the_other_strategies(scene, 24);
+    }
+}
+// A path that meets such a lamp may begin its next chain there.
+TEST(ManifoldSampling, AgreesForLampsThatReflectLight) {
+    Scene scene = smooth_balls();
+    place(scene, ceiling_quad(0.7f, 1.5f), emitter(10, 0.9f));
+    agrees_with_the_other_strategies(scene, 24);
+}
+TEST(ManifoldSampling, AgreesWhereSunsCoverEachOther) {
+    Scene scene = smooth_balls();
+    for (const Vec3& color : {Vec3{1, 0.5f, 0.2f}, Vec3{0.2f, 0.5f, 1}}) {
+        Light sun = caustic_light(Light::Kind::sun, 3);
+        sun.angle_radians = 0.6f;
+        sun.color = color;
+        place_light(scene, sun, aimed({0, 5, 0}, {0.3f, -1, 0.2f}));
+    }
+    agrees_with_the_other_strategies(scene, 16);
+}
 
 // Lights without size: nothing finds them by chance. All light that the balls focus is in chains, as none of them is of glass.
 TEST(ManifoldSampling, AgreesWithLightPathsAndLightVerticesForLightsWithoutSize) {
