@@ -142,7 +142,7 @@ template <class F> void take_arrivals(ManifoldColumns& c, const Hit<F>& hit, con
     if (!any(arriving)) return;
     const Mask<F> infinite = as_mask((gather(c.kind, w.index) & int32_t(receiver_infinite)) != 0);
     const F distance = dot(load3<F>(c.target, w.index) - w.ray.position, w.ray.direction);
-    const Mask<F> beyond = !infinite && hit.t >= distance * (1.f - 1e-4f) - 4.f * gather(c.tolerance, w.index);
+    const Mask<F> beyond = !infinite && hit.t >= before_target<F>(c, w.index, distance);
     const Mask<F> lit = arriving && share > F(0.f) && (beyond || as_mask(hit.geometry < 0));
     if (c.blended) put3<F>(c.found, w.index, load3<F>(c.found, w.index) * share, bits(lit));
     w.trials = select(lit, Int<F>(1), w.trials);
