@@ -2,6 +2,7 @@
 #include "tests/render/integrator/caustic_images.h"
 #include "tests/render/integrator/manifold/lit_casters.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>
@@ -117,6 +118,19 @@ private:
     std::vector<Id<Node>> objects_;
 };
 
+constexpr CausticOptions everything{.light_path_share = 0.5f, .manifold_sampling = true, .light_vertices = true, .shared_chains = true};
+
+void expect_sum_is_beauty(const std::vector<std::vector<Vec3>>& planes, const Frame& frame, uint32_t seed) {
+    ASSERT_FALSE(planes.empty()) << seed;
+    for (size_t i = 0; i < planes[0].size(); ++i) {
+        double sum = 0;
+        for (const auto& plane : planes) sum += double(plane[i].y);
+        const double whole = double(frame.rgba[4 * i + 1]);
+        // A ray that meets two suns, or sun and sky, adds both in single precision.
+        ASSERT_NEAR(sum, whole, 0x1p-20 * std::max(sum, whole)) << "scene " << seed << ", pixel " << i;
+    }
+}
+
 TEST(RandomCaustics, AgreeForAllStrategies) {
     constexpr std::array seeds{1u, 2u, 3u, 4u, 5u, 17u}; // 17: a lamp that is blended, which shadowed itself
     const double alpha = sidak(significance, int64_t(3 * seeds.size()));
@@ -129,8 +143,23 @@ TEST(RandomCaustics, AgreeForAllStrategies) {
         const auto without = blocks({.light_path_share = 0.f, .manifold_sampling = false}, 1);
         EXPECT_TRUE(same_means(blocks({.light_path_share = 1.f, .manifold_sampling = false}, 1000), without, alpha)) << "light paths";
         EXPECT_TRUE(same_means(blocks({.light_path_share = 0.f, .manifold_sampling = true}, 2000), without, alpha)) << "manifold sampling";
-        const CausticOptions all{.light_path_share = 0.5f, .manifold_sampling = true, .light_vertices = true, .shared_chains = true};
-        EXPECT_TRUE(same_means(blocks(all, 3000), without, alpha)) << "all";
+        EXPECT_TRUE(same_means(blocks(everything, 3000), without, alpha)) << "all";
+    }
+}
+
+// Each light is in one group, and each path has one length, whichever strategy finds it.
+TEST(RandomCaustics, PlanesSumToTheBeauty) {
+    for (uint32_t seed = 1; seed <= 40; ++seed) {
+        RandomScene random(seed);
+        random.settings.spp = 6;
+        for (const bool by_bounce : {false, true}) {
+            random.scene.mix.grouping = by_bounce ? LightMix::Grouping::none : LightMix::Grouping::by_light;
+            Renderer renderer({.threads = 2, .planes = {.bounces = by_bounce ? 6 : 0}, .caustics = everything});
+            renderer.update(random.scene, random.settings);
+            renderer.render(0, random.settings.spp);
+            const Frame frame = renderer.resolve();
+            expect_sum_is_beauty(by_bounce ? frame.bounces : frame.groups, frame, seed);
+        }
     }
 }
 
