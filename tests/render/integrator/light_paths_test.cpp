@@ -292,7 +292,7 @@ TEST(LightPaths, OfLightsWithoutSizeLeaveTheSamplesOfTheCameraAsTheyAre) {
 
 // Only delta lobes lead their light to casters: NEE, whose shadow rays meet other objects, finds the rest. Under the floor, where a ball
 // casts no shadow, leaving it out changes nothing.
-TEST(LightPaths, OfLightsWithOwnShadowCastersAreThoseOfOthersByDeltaLobes) {
+TEST(LightPaths, AgreeWithThoseOfLightsWithoutOwnShadowCasters) {
     for (const float radius : {0.f, 0.3f}) {
         const auto blocks = [&](bool own_casters, uint32_t first_seed) {
             Scene scene = balls(0);
