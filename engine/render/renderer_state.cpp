@@ -266,7 +266,9 @@ Result<void> Renderer::load_film(const FilmState& state) {
     State& s = *state_;
     s.divider = 1;
     s.clear();
-    s.splats = film_size(state).light_paths;
+    const bool light_paths = film_size(state).light_paths;
+    s.early_splats = light_paths && state.first_is_rough; // saved before the pilots
+    s.splats = light_paths && !s.early_splats;
     s.clear_stale_film();
     const auto refused = [&](Error error) {
         s.clear();

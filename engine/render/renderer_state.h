@@ -58,7 +58,8 @@ struct Renderer::State {
     bool film_is_stale = true, film_is_uneven = false; // uneven: rendering stopped in the middle of a sample
     bool first_is_rough = false;                       // the film holds the first sample of each pixel without smooth edges
     bool first_is_trained = false;                     // and has only that sample, with a field of before an edit
-    bool splats = false;                               // the film holds those of light paths
+    bool splats = false;                               // a film at full size holds those of light paths, as their pilot decided
+    bool early_splats = false;                         // the film holds those of LightPathChoice::early()
     int64_t first_pass_tiles = 0;                      // of its first pass, if the other tiles are still to be traced
     bool first_as_others = false;                      // the first sample is rendered as learned sampling decides for the others
     int divider = 1;
@@ -108,7 +109,7 @@ struct Renderer::State {
         return {settings.width,    settings.height,
                 options.planes,    transparent(),
                 settings.adaptive, int(mixing.gains.size()),
-                catches(),         (splats && divider == 1) || (replacement && replacement->splats())};
+                catches(),         early_splats || (splats && divider == 1) || (replacement && replacement->splats())};
     }
     // If the scene differs from the film only in the light mix, applies the mix and returns true.
     bool apply_mix(const Scene& whole, const RenderSettings& now) {
@@ -172,7 +173,9 @@ struct Renderer::State {
         film_is_stale = false;
     }
     CausticFinders caustic_finders() const {
-        if (!splats) return divider == 1 && learned.uses_manifolds() ? CausticFinders::manifolds : CausticFinders::none;
+        if (learned.kept_seeds()) return CausticFinders::manifolds;
+        if (early_splats) return CausticFinders::light_paths;
+        if (divider > 1 || !splats) return divider == 1 && learned.uses_manifolds() ? CausticFinders::manifolds : CausticFinders::none;
         return learned.uses_manifolds() ? CausticFinders::light_paths_and_manifolds : CausticFinders::light_paths;
     }
     // Pixels in the groups of path reuse in which samples of the film are correlated; 1: none.
@@ -185,6 +188,11 @@ struct Renderer::State {
         splats = !splats;
         film_is_stale = true;
         clear_stale_film();
+    }
+    // The same for coarse images, and for a first sample before the pilots.
+    void begin_early_splats(bool allowed) {
+        const bool now = allowed && learned.early_light_paths(scene.tables(), 1);
+        if (std::exchange(early_splats, now) != now) film_is_stale = true;
     }
     // Samples first, first + stride, ... of a pixel, with these reuse groups.
     struct Run {
@@ -233,7 +241,8 @@ struct Renderer::State {
     bool begin_first_pass(const Wanted& wanted);
     bool add_to_first_pass(const Wanted& wanted);
     bool complete_first_pass(const Wanted& wanted);
-    bool trace_tiles_of_passes(int64_t first, int64_t count, const TileRange& range, const Wanted& wanted);
+    bool trace_early_light_paths(int64_t first, int64_t count, const Wanted& wanted);
+    bool trace_tiles_of_passes(const LightPathPass& each, int64_t first, int64_t count, const TileRange& range, const Wanted& wanted);
     void collect_counts(const TickRate& rate);
     bool correlates_pixels() const { return replacement && replacement->correlates_pixels(); }
 

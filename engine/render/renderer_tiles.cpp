@@ -159,6 +159,7 @@ bool Renderer::State::complete_first_sample(const Wanted& wanted) { return compl
 // Renders the first sample again, as the pilots decided for the others.
 bool Renderer::State::renew_first_sample(const Wanted& wanted) {
     splats = learned.light_paths().pays();
+    early_splats = false;
     first_as_others = true;
     return render_first_again(wanted);
 }
@@ -178,6 +179,7 @@ bool Renderer::State::render_first_again(const Wanted& wanted) {
 // Light paths for the film's only sample, which stays as it is.
 bool Renderer::State::add_first_pass(const Wanted& wanted) {
     splats = true;
+    early_splats = false;
     film.begin_light_paths(divided_film());
     feature_report.reset();
     return trace_light_paths(0, 1, wanted) || !(film_is_uneven = true);
@@ -191,6 +193,7 @@ bool Renderer::settle_first_sample(const std::function<bool()>& wanted) {
     s.kernel_name = State::name_of(*s.kernel);
     s.info.reset();
     s.feature_report.reset();
+    s.begin_early_splats(true);
     return s.render_first_again(wanted);
 }
 
@@ -243,10 +246,11 @@ bool Renderer::decide_first_sample(const std::function<bool()>& wanted) { return
 
 bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>& wanted) {
     State& s = *state_;
-    s.clear_stale_film();
-    if (!s.prepare_replacement(wanted)) return false;
     const int64_t begin = s.settings.adaptive && !s.options.is_part ? s.loaded_first + s.samples : first;
     const bool begins_others = begin + count > 1 || s.options.is_part;
+    if (s.samples == 0) s.begin_early_splats(s.divider > 1 || !(begins_others || s.begins_decided(begin)));
+    s.clear_stale_film();
+    if (!s.prepare_replacement(wanted)) return false;
     if (s.divider == 1 && (begins_others || s.begins_decided(begin))) {
         if (begins_others && !s.decide(2, wanted)) return false;
         if (s.samples == 0) s.begin_splats();
@@ -255,6 +259,7 @@ bool Renderer::render(int64_t first, int64_t count, const std::function<bool()>&
             if (s.first_is_rough && !s.first_as_others && s.samples == 1 && !s.renew_first_sample(wanted)) return false;
         } else if (s.first_is_trained) {
             s.splats = s.learned.light_paths().pays();
+            s.early_splats = false;
             if (!s.render_first_again(wanted)) return false;
         } else if (s.samples == 1 && !s.splats && s.learned.light_paths().alone() && !s.add_first_pass(wanted))
             return false;

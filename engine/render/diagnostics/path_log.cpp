@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace blush {
@@ -147,15 +148,19 @@ std::string trace_sample(const Scene& scene, const RenderSettings& settings, int
             log.outcome(vertex);
             return true;
         });
-        if (learned.light_paths().pays()) {
+        std::optional<LightPathPass> pass;
+        if (!decides)
+            pass = learned.early_light_paths(compiled.tables(), int64_t(settings.width) * settings.height);
+        else if (learned.light_paths().pays())
+            pass = learned.light_path_pass(compiled.tables());
+        if (pass) {
             const Kernel& with_light_paths = kernel_like(kernel, kernel.features.with(Feature::light_paths));
-            const SceneTables light_tables = learned.light_path_tables(compiled.tables());
             KernelContext light_context = context;
-            light_context.scene = &light_tables;
-            const PixelLightPaths found = replay_light_paths(light_context, with_light_paths, learned.light_paths().emission(),
-                                                             learned.light_paths().paths(), sample, x, y, scratch);
-            log.line("light paths: {} connections of {} light paths contribute {} to this pixel", found.connections,
-                     learned.light_paths().paths(), rgb(found.light));
+            light_context.scene = &pass->tables;
+            const PixelLightPaths found =
+                replay_light_paths(light_context, with_light_paths, *pass->emission, pass->paths, sample, x, y, scratch);
+            log.line("light paths: {} connections of {} light paths contribute {} to this pixel", found.connections, pass->paths,
+                     rgb(found.light));
             for (const ReplayedLightPath& path : found.brightest) log.light_path(path);
             radiance = radiance + found.light;
         }

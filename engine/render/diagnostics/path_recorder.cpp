@@ -52,11 +52,9 @@ RecordedPath PathRecorder::State::record(int x, int y, int64_t sample, bool ligh
         return true;
     });
     if (!light_paths || !learned.light_paths().pays()) return path;
-    const SceneTables light_tables = learned.light_path_tables(scene.tables());
+    const LightPathPass pass = learned.light_path_pass(scene.tables());
     const Kernel& kernel = choose_kernel(scene.features().with(Feature::light_paths));
-    path.light_paths = replay_light_paths(context(light_tables), kernel, learned.light_paths().emission(), learned.light_paths().paths(),
-                                          sample, x, y, tile)
-                           .light;
+    path.light_paths = replay_light_paths(context(pass.tables), kernel, *pass.emission, pass.paths, sample, x, y, tile).light;
     return path;
 }
 

@@ -69,7 +69,7 @@ public:
         return adjoint_.tables(manifolds_.tables(light_paths_.tables(t, sample), sample), sample);
     }
     // The same for light paths, if light_paths().pays().
-    SceneTables light_path_tables(const SceneTables& scene) const { return light_paths_.light_path_tables(tables(scene, 1)); }
+    LightPathPass light_path_pass(const SceneTables& scene) const { return light_paths_.pass(tables(scene, 1)); }
     // Images begin without them from now on.
     void drop_kept() {
         kept_.reset();
@@ -84,6 +84,10 @@ public:
         return scene;
     }
     const LightPathChoice& light_paths() const { return light_paths_; }
+    // LightPathChoice::early(); empty where kept seeds find this light.
+    std::optional<LightPathPass> early_light_paths(const SceneTables& scene, int64_t pixels) {
+        return kept_seeds() ? std::nullopt : light_paths_.early(scene, scene_sphere_, pixels);
+    }
     bool uses_manifolds() const { return manifolds_.pays(); }
     // True if samples are connected to other vertices than path reuse knows, by densities that it does not know.
     bool excludes_reuse() const { return light_paths_.combined() || manifolds_.pays(); }

@@ -20,7 +20,16 @@ const char* why_no_light_paths(const RenderSettings& settings, const RenderScene
 
 LightPathChoice::LightPathChoice(const RenderSettings& settings, const RenderScene& scene, const FilmSize& film, std::optional<float> share)
     : useless_(why_no_light_paths(settings, scene, film)), share_(share), pixels_(double(settings.width) * double(settings.height)),
-      smooth_(scene.may_have_highlights()) {}
+      smooth_(scene.may_have_highlights()), misses_light_(!scene.missing_light(CausticFinders::none).empty()) {}
+
+std::optional<LightPathPass> LightPathChoice::early(const SceneTables& scene, const CasterSphere& scene_sphere, int64_t pixels) {
+    if (useless_ || share_ || !misses_light_) return std::nullopt;
+    if (!early_) early_ = LightPathEmission::of_zero_size_lights(scene, scene_sphere);
+    if (early_->empty()) return std::nullopt;
+    LightPathPass pass{&*early_, scene, pixels};
+    pass.tables.emission = early_->tables(float(pixels));
+    return pass;
+}
 
 void LightPathChoice::decide(LightPathPilot pilot) {
     if (useless_) return;
@@ -43,18 +52,21 @@ double LightPathChoice::work_per_sample() const {
 }
 
 SceneTables LightPathChoice::tables(SceneTables scene, int64_t sample) const {
-    return sample > 0 && combined() ? light_path_tables(scene) : scene;
+    return sample > 0 && combined() ? pass(scene).tables : scene;
 }
 
-SceneTables LightPathChoice::light_path_tables(SceneTables scene) const {
+LightPathPass LightPathChoice::pass(SceneTables scene) const {
     scene.emission = emission().tables(float(paths()));
-    return scene;
+    return {&emission(), scene, paths()};
 }
 
 FeatureUse LightPathChoice::report() const {
     FeatureUse use{.part = "kernel", .name = "light paths", .used = pays(), .why = {}};
+    const bool before_pilot = !pilot_ && early_ && !early_->empty();
     if (useless_)
         use.why = useless_;
+    else if (before_pilot)
+        use.why = "before the pilot, they alone find caustics of lights of zero size, with 1 for each camera path";
     else if (!pilot_)
         use.why = "a pilot decides after the first sample";
     else if (pays() && !pays_by_figures() && !share_)
@@ -67,6 +79,10 @@ FeatureUse LightPathChoice::report() const {
     else
         use.why = fmt::format("pilot: variance x work would be {:.2f} of that without", pilot_->figures->cost());
     if (use.used) use.bytes = emission().memory_bytes();
+    if (before_pilot) {
+        use.used = true;
+        use.bytes = early_->memory_bytes();
+    }
     if (pilot_) use.pilot = pilot_->figures;
     return use;
 }

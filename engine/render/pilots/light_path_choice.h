@@ -14,6 +14,13 @@ namespace blush {
 
 class RenderScene;
 
+// Light paths for one sample of every pixel.
+struct LightPathPass {
+    const LightPathEmission* emission;
+    SceneTables tables; // that they are traced with
+    int64_t paths;
+};
+
 // Only scenes with casters of caustics get a pilot (light_path_pilot.h). The decision depends on the scene and the settings alone. All
 // samples of an image at full resolution have the same weights, so the first sample is rendered again where light paths are used:
 //   - combined with the strategies of the camera's paths by MIS, where that pays, or beside manifold sampling,
@@ -41,6 +48,9 @@ public:
     }
     bool alone() const { return pilot_ && !combined() && !share_ && smooth_ && !pilot_->zero_size.empty(); }
     bool pays() const { return combined() || alone(); }
+    // For coarse images, and a first sample before the pilot has run: light paths of lights without size, alone, one for each of `pixels`.
+    // Empty if such images have none. `scene_sphere` contains all surfaces. Valid as long as this object and the scene.
+    std::optional<LightPathPass> early(const SceneTables& scene, const CasterSphere& scene_sphere, int64_t pixels);
     // Light paths for one sample of every pixel of the whole image; 0: none.
     int64_t paths() const { return int64_t(pixels_ * double(share())); }
     // Their rays (path_work) for one sample of a pixel.
@@ -49,8 +59,8 @@ public:
     // The tables for a sample of the camera's paths of this index at full resolution. Requires a decision except for index 0. Valid as long
     // as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
-    // The same for light paths. Requires pays().
-    SceneTables light_path_tables(SceneTables scene) const;
+    // As decided, with the tables for others than the first sample. Requires pays(). Valid as early().
+    LightPathPass pass(SceneTables scene) const;
 
     FeatureUse report() const;
 
@@ -64,6 +74,8 @@ private:
     std::optional<float> share_;
     double pixels_ = 0;
     bool smooth_ = false, with_manifolds_ = false;
+    bool misses_light_ = false; // without light paths
+    std::optional<LightPathEmission> early_;
     std::optional<LightPathPilot> pilot_;
 };
 

@@ -127,14 +127,35 @@ Scene window_room() {
     return scene;
 }
 
+// The metal ring in the light of a point as glTF has it, without size: only light paths and manifold sampling find its caustic.
+Result<Scene> ring_under_a_point() {
+    Result<ImportedScene> ring = import_gltf(std::string(BLUSH_ASSETS) + "/scenes/metal-ring.gltf");
+    if (!ring) return ring.error();
+    Scene scene = std::move(ring->scene);
+    for (const auto& entry : Table<Node>(scene.nodes)) {
+        if (entry.value.name != "lamp") continue;
+        Node hidden = entry.value;
+        hidden.visible = false;
+        const Vec3 position = hidden.local.translation;
+        scene.nodes.set(entry.id, std::move(hidden));
+        Light point;
+        point.intensity = 0.5f;
+        stability::place_light(scene, point, stability::at(position));
+    }
+    return scene;
+}
+
 } // namespace
 
 Result<std::vector<BenchScene>> quality_scenes(const std::filesystem::path& folder) {
     Result<Scene> model = textured_model(folder);
     if (!model) return model.error();
+    Result<Scene> ring = ring_under_a_point();
+    if (!ring) return ring.error();
     return std::vector<BenchScene>{{"textured-hdri", *std::move(model), false},
                                    {"million-triangles", million_triangles(), false},
-                                   {"window-room", window_room(), false}};
+                                   {"window-room", window_room(), false},
+                                   {"ring-point", *std::move(ring), false}};
 }
 
 } // namespace blush::bench

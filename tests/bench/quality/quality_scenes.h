@@ -9,8 +9,9 @@
 
 namespace blush::bench {
 
-// A textured model under an environment map, about a million triangles, an interior lit through a window. The model is pmndrs.glb of
-// `folder` and the map ../hdri/venice.exr beside it, if both exist; else both are generated. Errors: those of reading the files.
+// A textured model under an environment map, about a million triangles, an interior lit through a window, a caustic of a point. The model
+// is pmndrs.glb of `folder` and the map ../hdri/venice.exr beside it, if both exist; else both are generated. Errors: those of reading the
+// files.
 Result<std::vector<BenchScene>> quality_scenes(const std::filesystem::path& folder);
 
 } // namespace blush::bench
