@@ -59,7 +59,7 @@ public:
     // The tables for a sample of the camera's paths of this index at full resolution. Requires a decision except for index 0. Valid as long
     // as both.
     SceneTables tables(SceneTables scene, int64_t sample) const;
-    // As decided, with the tables for others than the first sample. Requires pays(). Valid as early().
+    // As the pilot decided, for samples after the first. Requires pays(). Valid as long as this object and the scene.
     LightPathPass pass(SceneTables scene) const;
 
     FeatureUse report() const;
